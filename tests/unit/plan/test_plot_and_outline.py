@@ -102,3 +102,22 @@ def test_a_room_that_is_outlined_by_a_thin_line_is_closed_by_it() -> None:
     assert room.area_px2 / size == pytest.approx(438 * 292, rel=0.05)
     origins = {wall.id: wall.origin for wall in drawn.walls}
     assert "inferred" in {origins[name] for name in room.walls}
+
+
+def test_a_room_behind_panes_that_slide_past_each_other_is_closed_by_them() -> None:
+    """Two hair lines, a little over half of the side each, with a slit between where they pass."""
+    page = np.full((1000, 1000, 3), 255, np.uint8)
+    _house(page, 150, 500)
+    for x in (157, 613):  # walls up to the panes, with a stub beyond the corner
+        cv2.line(page, (x, 500), (x, 200), (0, 0, 0), 14)
+    for start, end in (((150, 200), (190, 200)), ((580, 200), (620, 200))):
+        cv2.line(page, start, end, (0, 0, 0), 14)
+    cv2.line(page, (190, 202), (400, 202), (0, 0, 0), 2)
+    cv2.line(page, (370, 197), (580, 197), (0, 0, 0), 2)
+    texts = [written("Wohnen", 380, 350), written("Zimmer", 280, 700), written("Bad", 600, 650)]
+    drawn = read_storey(page, texts)
+    to_clean = drawn.cleaned.clean_from_scan
+    place = Point(*(to_clean[:2, :2] @ (380, 350) + to_clean[:2, 2]))
+    (room,) = [one for one in drawn.rooms if one.polygon().contains(place)]
+    size = abs(float(np.linalg.det(to_clean[:2, :2])))
+    assert room.area_px2 / size == pytest.approx(442 * 293, rel=0.05)

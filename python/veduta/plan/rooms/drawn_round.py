@@ -171,8 +171,11 @@ def _with_sweeps(room: Mask, raster: Raster, door_px: float) -> Mask:
     return np.asarray(labels == int(inside.argmax()), dtype=np.bool_)
 
 
-def raster_of(bodies: Sequence[Polygon], drawn: Mask) -> Raster:
-    """Of what is drawn on a sheet (h, w), and of the bodies of walls, their openings closed."""
+def raster_of(bodies: Sequence[Polygon], drawn: Mask, shut_px: int = 3) -> Raster:
+    """Of what is drawn on a sheet (h, w), and of the bodies of walls, their openings closed.
+
+    Gaps between lines that are narrower than `shut_px` are closed.
+    """
     solid = np.zeros((drawn.shape[0] + 2 * MARGIN, drawn.shape[1] + 2 * MARGIN), np.uint8)
     for body in bodies:
         corners = np.round(np.asarray(body.exterior.coords) - 0.5 + MARGIN).astype(np.int32)
@@ -183,7 +186,7 @@ def raster_of(bodies: Sequence[Polygon], drawn: Mask) -> Raster:
     solid[border] = 0
     lines = solid.copy()
     lines[MARGIN:-MARGIN, MARGIN:-MARGIN] |= drawn.astype(np.uint8)
-    lines = cv2.morphologyEx(lines, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
+    lines = cv2.morphologyEx(lines, cv2.MORPH_CLOSE, np.ones((shut_px, shut_px), np.uint8))
     lines[border] = 0
     count, free = cv2.connectedComponents(1 - lines, connectivity=4)
     outside = int(free[0, 0])
@@ -206,9 +209,10 @@ def _room(raster: Raster, label: Points, thin_px: float, outer_px: float) -> Mas
     if not shares.any() or own == raster.outside:
         return None
     # What lies between the lines of a wall or a window is close to the outdoors: no furniture.
-    shallow = (raster.outdoors < DEEP * outer_px) & (raster.free > 0)
-    inside = np.ones(raster.count, np.bool_)
-    inside[[0, raster.outside, *np.unique(raster.free[shallow])]] = False
+    size_px = np.bincount(raster.free.ravel(), minlength=raster.count)
+    depth = np.bincount(raster.free.ravel(), raster.outdoors.ravel(), raster.count)
+    inside = depth >= DEEP * outer_px * size_px
+    inside[[0, raster.outside]] = False
     inside[own] = True
     size = 2 * max(1, round(LINES * thin_px / 2)) + 1
     whole = cv2.morphologyEx(
@@ -299,23 +303,27 @@ def _like_the_nearest(
 
 
 def _hooked(points: Points, axes: Sequence[Axis], thick_px: float) -> Points:
-    """The line with both ends on centre lines of known walls ahead of it, where these are near."""
-    reach = HOOK * thick_px
+    """The line with both ends on centre lines of known walls ahead of it, where these are near.
+
+    How far they are counts from their faces: a thick wall's middle is far behind.
+    """
     lines = [LineString(axis.line.arc.points(STEP_RAD)) for axis in axes]
+    reach = HOOK * thick_px + np.array([axis.line.thickness_px / 2 for axis in axes])
     ends = np.array([end for axis in axes for end in (axis.line.start, axis.line.end)])
     done = points.copy()
     for end, ahead in ((0, 1), (-1, -2)):
         way = points[end] - points[ahead]
         way = way / max(float(np.hypot(*way)), 1e-9)
-        ray = LineString([points[end] - 0.5 * thick_px * way, points[end] + reach * way])
-        met = [ray.intersection(line) for line in lines]
+        foot = points[end] - 0.5 * thick_px * way
         crossings = [
             np.array([one.x, one.y])
-            for each in met
+            for line, far in zip(lines, reach, strict=True)
+            for each in [LineString([foot, points[end] + far * way]).intersection(line)]
             for one in getattr(each, "geoms", [each])
             if isinstance(one, Point)
         ]
-        spots = np.array([*crossings, *ends[np.hypot(*(ends - points[end]).T) <= reach]])
+        near = np.hypot(*(ends - points[end]).T) <= np.repeat(reach, 2)
+        spots = np.array([*crossings, *ends[near]])
         if len(spots) == 0:
             continue
         apart = spots - points[end]

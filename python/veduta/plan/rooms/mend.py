@@ -17,7 +17,7 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry import Point
+from shapely.geometry import Point, Polygon
 
 from veduta.plan.document import OpeningType, Origin, Text
 from veduta.plan.openings.classify import Judged
@@ -41,6 +41,13 @@ GLAZED = 1.5
 
 BESIDE_PX = 3.0
 """So far from the face of a wall that closes a break one is in what lies beside it."""
+
+LEAST_SHUT_PX = 3
+"""Gaps between lines that are narrower are none, in whole pixels ..."""
+
+SHUT = 0.7
+"""... nor, where a room is open even then, those narrower than this part of a thin wall: panes that
+slide past each other leave such a one."""
 
 MOST_ROUNDS = 24
 """In each, all breaks are closed that change nothing for each other."""
@@ -99,11 +106,14 @@ def mended(
     if by_lines and axes:
         indoors = room_labels(texts, indoors=True)
         door_px = usual or USUAL_DOOR * found.thin_px
-        for also in (False, True) if thin else (False,):
+        shut = max(LEAST_SHUT_PX, round(SHUT * found.thin_px))
+        passes = ((False, LEAST_SHUT_PX), (True, LEAST_SHUT_PX), (True, shut))
+        for also, shut_px in passes if thin else passes[:1]:
             around = partial(_around, found=found, door_px=door_px, thin=also)
             # Thin lines close the room that is named, and make no others.
             most = 1.0 if also else math.inf
-            enclosed, said = _along_lines(enclosed, found, sheet, indoors, around, most)
+            look = _Looked(found, partial(raster_of, drawn=sheet.faint, shut_px=shut_px), most)
+            enclosed, said = _along_lines(enclosed, look, indoors, around)
             notes += said
     return Mended(list(enclosed.axes), tuple(notes))
 
@@ -134,13 +144,20 @@ def _parts(wall: Axis, enclosed: Enclosed) -> bool:
     return first != second
 
 
+@dataclass(frozen=True)
+class _Looked:
+    """What lines are looked for in, and how many more rooms one of them may make, at most."""
+
+    found: Found
+    raster: Callable[[Sequence[Polygon]], Raster]
+    most: float
+
+
 def _along_lines(
     enclosed: Enclosed,
-    found: Found,
-    sheet: Sheet,
+    look: _Looked,
     labels: Sequence[NDArray[np.float64]],
     around: Callable[[Sequence[Axis], Raster, NDArray[np.float64]], list[Axis]],
-    most: float,
 ) -> tuple[Enclosed, list[str]]:
     """With walls that close spaces with a label where lines do, and a note for each space."""
     notes = list[str]()
@@ -150,14 +167,14 @@ def _along_lines(
         if any(room.contains(name) for room in enclosed.rooms):
             continue
         if raster is None:
-            raster = raster_of(enclosed.bodies, sheet.faint)
+            raster = look.raster(enclosed.bodies)
         walls = around(enclosed.axes, raster, label)
         if not walls:
             continue
-        tried = enclosed_by([*enclosed.axes, *walls], found.thin_px)
+        tried = enclosed_by([*enclosed.axes, *walls], look.found.thin_px)
         more = len(tried.rooms) - len(enclosed.rooms)
         own = any(room.contains(name) for room in tried.rooms)
-        if not own or more < 1 or more > most:
+        if not own or more < 1 or more > look.most:
             continue
         enclosed, raster = tried, None
         place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"

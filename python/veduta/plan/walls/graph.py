@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
 
 from veduta.plan.document import JunctionType
 from veduta.plan.walls.arcs import bulge_through
@@ -34,6 +35,9 @@ AS_THICK = 0.15
 STRAIGHT_RAD = np.radians(15)
 BULGES = 20
 """Of so many parts of a half circle: walls between two nodes that bow alike are the same wall."""
+
+SAME_PX = 0.5
+"""Junctions that are nearer to each other are one."""
 
 HALF_CIRCLE_RAD = np.radians(175.0)
 """A curved wall that turns more is parted in the middle: a bulge is of less than half a circle."""
@@ -73,6 +77,7 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
         _with_ends(axis, stops[index], points)
         _with_middles(axis, stops[index], points)
     nodes, alias = _clustered(points, axes, stops)
+    alias = _at_one_place(nodes, alias)
     edges: dict[tuple[int, int, int], Edge] = {}
     for index in range(len(axes)):
         ordered = sorted(stops[index])
@@ -233,6 +238,20 @@ def _clustered(
     return np.array(
         [_on_lines(node, [axes[i] for i in at]) for node, at in zip(nodes, through, strict=True)]
     ).reshape(-1, 2), alias
+
+
+def _at_one_place(nodes: NDArray[np.float64], alias: Sequence[int]) -> list[int]:
+    """The numbers of points' junctions, where those that were moved to one place are one.
+
+    Between them there would be a wall of no length.
+    """
+    if len(nodes) == 0:
+        return list(alias)
+    near = np.array(sorted(KDTree(nodes).query_pairs(SAME_PX)), np.int64).reshape(-1, 2)
+    pairs = coo_matrix((np.ones(len(near)), (near[:, 0], near[:, 1])), (len(nodes), len(nodes)))
+    group = connected_components(pairs, directed=False)[1]
+    first = np.unique(group, return_index=True)[1]
+    return [int(first[group[one]]) for one in alias]
 
 
 def _on_lines(node: NDArray[np.float64], axes: Sequence[Axis]) -> NDArray[np.float64]:
