@@ -28,16 +28,20 @@ class FeetLooks:
     """Gaps and steps shorter than this share of a cycle are none."""
 
 
-def feet_down(places: Floats, frame_s: float, looks: FeetLooks, *, cyclic: bool) -> Chart:
+def feet_down(
+    places: Floats, frame_s: float, looks: FeetLooks, *, cyclic: bool, ground: float | None = None
+) -> Chart:
     """(t, f) whether each foot stands.
 
     places: (t, f, 2) of the feet from the body's root, x forwards, y up, in lengths; cyclic: the
-    last row is followed by the first one.
+    last row is followed by the first one. ground: how fast it goes back under the body (lengths/s),
+    where the pictures show that; None: as the feet tell.
     """
     mode: Literal["wrap", "nearest"] = "wrap" if cyclic else "nearest"
     smooth = gaussian_filter1d(places, max(0.5, 0.012 * len(places)), axis=0, mode=mode)
     speed = _change(smooth[..., 0], cyclic=cyclic) / frame_s
-    ground = ground_speed(places, frame_s, cyclic=cyclic)
+    if ground is None:
+        ground = ground_speed(places, frame_s, cyclic=cyclic)
     high = smooth[..., 1] - smooth[..., 1].min(axis=0)
     allowed = np.maximum(looks.lift * high.max(axis=0), looks.low)
     down = (speed < -looks.slowest * ground) & (high < allowed)

@@ -12,7 +12,7 @@ from veduta.fauna.document.plan import BodyPlan
 from veduta.fauna.motion.figure import Floats, figure_of
 from veduta.fauna.read.fit import Basis, Fit, FitLooks, Fitted, cycle_basis, spline_basis
 from veduta.fauna.read.silhouettes import Masks
-from veduta.fauna.read.starts import Start, StartLooks, best_start
+from veduta.fauna.read.starts import Start, StartLooks, best_start, legs_again
 from veduta.fauna.read.windows import Windows, middles_of, repeat_of, windows_of
 
 
@@ -78,6 +78,7 @@ def fit_limbed(
     )
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
+        start = legs_again(start, looks.start, heard)
     fine = replace(windows_of(masks, looks.fine_cells, middle), pins=pins or {})
     if start.fit.windows.faces < 0.0:
         fine = fine.mirrored()
@@ -128,7 +129,10 @@ def _with_cycle(
         start.fit.figure, start.fit.windows, cycle_basis(frames, best, looks.fit), looks.fit, frames
     )
     numbers = start.fit.moved_to(fit, start.numbers)
-    return Start(fit, numbers, start.px_per_length, min(losses)), best
+    numbers, loss = fit.improve(
+        numbers, start.px_per_length, looks.start.soft, looks.start.steps, heard
+    )
+    return Start(fit, numbers, start.px_per_length, loss), best
 
 
 def _grown(

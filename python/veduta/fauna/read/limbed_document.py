@@ -26,6 +26,10 @@ from veduta.fauna.read.limbed import LimbedSeen
 _PHASES = 96
 USUAL_LIMBED_M = {"quadruped": 0.8, "lizard": 0.2}
 _OTHER_M = 0.5
+_GONE, _EVEN = 0.4, 0.25
+"""An animal goes through the pictures by so many lengths at least, and is by this share of that
+where an even pace would have it.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +46,7 @@ class Scaled:
     root: Floats
     down: Chart
     unit_px: float
+    speed: float | None
 
 
 def described_limbs(
@@ -149,12 +154,32 @@ def scaled_animal(seen: LimbedSeen, plan: BodyPlan, frame_s: float) -> Scaled:
     if top:
         places[..., 1] = 0.0  # how high feet are is not seen from above
     turns = fitted.angles - stand
+    speed = speed_in_pictures(seen, unit * fitted.px_per_length, frame_s)
     down = (
-        _cycle_down(seen, places, frame_s)
+        _cycle_down(seen, places, frame_s, speed)
         if seen.cycle is not None
-        else feet_down(places, frame_s, FeetLooks(), cyclic=False)
+        else feet_down(places, _row_s(seen, frame_s), FeetLooks(), cyclic=False, ground=speed)
     )
-    return Scaled(figure, own, turns, root, down, unit * fitted.px_per_length)
+    return Scaled(figure, own, turns, root, down, unit * fitted.px_per_length, speed)
+
+
+def speed_in_pictures(seen: LimbedSeen, unit_px: float, frame_s: float) -> float | None:
+    """How fast it goes through the pictures (lengths/s), if it does so evenly; else None.
+
+    A camera that stands still, or a canvas, shows that; feet tell it less well.
+    """
+    root = seen.windows.in_picture(seen.fitted.root[:, None], seen.fitted.px_per_length)[:, 0]
+    times = (seen.frames - seen.frames[0]) * frame_s
+    x = root[:, 0] * seen.windows.faces / unit_px
+    speed, begin = np.polyfit(times, x, 1)
+    gone = float(speed) * float(times[-1])
+    off = float(np.abs(x - begin - speed * times).max())
+    return float(speed) if gone > _GONE and off < _EVEN * gone else None
+
+
+def _row_s(seen: LimbedSeen, frame_s: float) -> float:
+    """Seconds between two frames that were read: of long footage not every one is."""
+    return float(np.median(np.diff(seen.frames))) * frame_s
 
 
 def _on_the_ground(seen: LimbedSeen, stand: Floats, low: float) -> Floats:
@@ -173,13 +198,14 @@ def _on_the_ground(seen: LimbedSeen, stand: Floats, low: float) -> Floats:
     return np.asarray(stand + turns[0])
 
 
-def _cycle_down(seen: LimbedSeen, places: Floats, frame_s: float) -> Chart:
+def _cycle_down(seen: LimbedSeen, places: Floats, frame_s: float, speed: float | None) -> Chart:
     """The chart of the frames from that of the mean cycle."""
     phases = np.arange(_PHASES) / _PHASES
-    cycle, step = seen.cycle or 1.0, float(np.median(np.diff(seen.frames)))
+    cycle = seen.cycle or 1.0
     at = (seen.frames / cycle) % 1.0
     mean = mean_cycle(places.reshape(len(places), -1), at).reshape(_PHASES, -1, 2)
-    down = feet_down(mean, cycle / step * frame_s / _PHASES, FeetLooks(), cyclic=True)
+    key_s = cycle * frame_s / _PHASES
+    down = feet_down(mean, key_s, FeetLooks(), cyclic=True, ground=speed)
     rows = np.floor(at * _PHASES).astype(int) % _PHASES
     return np.asarray(down[rows] if len(phases) else down)
 
@@ -214,8 +240,7 @@ def _gait(seen: LimbedSeen, scaled: Scaled, frame_s: float) -> LimbedGait:
         )
         for k, name in enumerate((*figure.segments, "root"))
     ]  # fmt: skip
-    step_frames = float(np.median(np.diff(seen.frames)))
-    cycle_s = cycle / step_frames * frame_s
+    cycle_s = cycle * frame_s
     feet = [limb.joints[-1] for limb in figure.feet()]
     places = (seen.fitted.joints()[:, feet] - seen.fitted.root[:, None]) * (
         seen.fitted.px_per_length / scaled.unit_px
@@ -223,8 +248,9 @@ def _gait(seen: LimbedSeen, scaled: Scaled, frame_s: float) -> LimbedGait:
     if scaled.plan.view == "top":
         places[..., 1] = 0.0
     mean = mean_cycle(places.reshape(len(places), -1), phase).reshape(_PHASES, -1, 2)
-    down = feet_down(mean, cycle_s / _PHASES, FeetLooks(), cyclic=True)
-    speed = ground_speed(mean, cycle_s / _PHASES, cyclic=True)
+    key_s = cycle_s / _PHASES
+    down = feet_down(mean, key_s, FeetLooks(), cyclic=True, ground=scaled.speed)
+    speed = scaled.speed or ground_speed(mean, key_s, cyclic=True)
     steps = []
     for column, limb in enumerate(figure.feet()):
         found = step_of(down[:, column])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from veduta.fauna.motion.figure import Figure, Floats, posed
+from veduta.fauna.motion.figure import Figure, Floats, Limb, posed
 from veduta.fauna.read.drawn import drawn_figure
 from veduta.fauna.read.fit import Basis, Fit, FitLooks
 from veduta.fauna.read.windows import Windows
@@ -28,6 +28,10 @@ class StartLooks:
     """So many starts are tried with the tail held otherwise."""
     tail_turns_rad: tuple[float, ...] = (-0.8, -0.4, 0.0, 0.5, 1.0)
     more_steps: int = 40
+    again_steps: int = 15
+    """Of a pair of legs that is begun anew."""
+    gain: float = 0.01
+    """That is kept where the loss is less by this share."""
     stride_rad: float = 0.4
     """How far a leg swings at first."""
     bend_rad: float = 0.35
@@ -140,16 +144,50 @@ def _begin(fit: Fit, front: float, hind: float, tries: StartLooks) -> Floats:
     shares = fit.part(numbers, "shares")
     rows = {segment: row for row, segment in enumerate(fit.groups)}
     body_x = joints[list(figure.limbs[0].joints), 0].mean()
-    order = (fit.basis.near.shape[1] - 1) // 2
     for limb in figure.feet():
-        if limb.segments[0] not in rows:
-            continue
-        phase = front if joints[limb.joints[0], 0] > body_x else hind
-        for place, segment in enumerate(limb.segments[:2]):
-            row = rows[segment]
-            swing = tries.stride_rad if place == 0 else tries.bend_rad
-            turn = 2.0 * np.pi * (phase + 0.25 * place)
-            size = swing / fit.basis.spread[1]
-            shares[row, 1] = size * np.cos(turn)
-            shares[row, 1 + order] = size * np.sin(turn)
+        if limb.segments[0] in rows:
+            phase = front if joints[limb.joints[0], 0] > body_x else hind
+            _swing(fit, shares, limb, phase, tries)
     return numbers
+
+
+def _swing(fit: Fit, shares: Floats, limb: Limb, phase: float, tries: StartLooks) -> None:
+    """Lets a limb swing at a phase, and do nothing else, in place."""
+    rows = {int(segment): row for row, segment in enumerate(fit.groups)}
+    order = (fit.basis.near.shape[1] - 1) // 2
+    for place, segment in enumerate(limb.segments):
+        row = rows[segment]
+        shares[row] = 0.0
+        if place > 1:
+            continue
+        swing = tries.stride_rad if place == 0 else tries.bend_rad
+        turn = 2.0 * np.pi * (phase + 0.25 * place)
+        size = swing / fit.basis.spread[1]
+        shares[row, 1] = size * np.cos(turn)
+        shares[row, 1 + order] = size * np.sin(turn)
+
+
+def legs_again(start: Start, tries: StartLooks, heard: Callable[[], None]) -> Start:
+    """The start with each pair of legs begun anew at several phases, where it covers more so.
+
+    A leg that once swings where nothing is seldom finds back by itself.
+    """
+    fit = start.fit
+    if not fit.basis.shared:
+        return start
+    own = {int(segment) for segment in fit.groups}
+    legs = [limb for limb in fit.figure.feet() if limb.segments[0] in own]
+    told = fit.top or any(name.endswith("_left") for name in fit.pinned)
+    phases = np.arange(tries.phases) * (1.0 if told else 0.5) / tries.phases
+    best = start
+    for limb in legs:
+        begun = best.numbers
+        for phase in phases:
+            numbers = begun.copy()
+            _swing(fit, fit.part(numbers, "shares"), limb, float(phase), tries)
+            numbers, loss = fit.improve(
+                numbers, start.px_per_length, tries.soft, tries.again_steps, heard
+            )
+            if loss < best.loss * (1.0 - tries.gain):
+                best = Start(fit, numbers, start.px_per_length, loss)
+    return best

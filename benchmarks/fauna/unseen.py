@@ -1,0 +1,151 @@
+"""Real animals with legs: the re-posed model against silhouettes that the fit did not see.
+
+`python benchmarks/fauna/unseen.py [--only mouse|goat] [--kept FILE] [--no-keep]` prints a table and
+keeps it in `benchmarks/results/fauna-unseen.md`. Real data is read from `$VEDUTA_DATA`, else from
+`../shared/data`. The worm is in `limbless.py`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parent))
+
+from kept_clips import KeptClips
+from record import Value, keep_or_print
+
+from veduta.fauna.document.plan import load_plan
+from veduta.fauna.read.drawn import drawn_figure
+from veduta.fauna.read.footage import read_footage, read_masks
+from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
+from veduta.fauna.read.overlap import overlap
+from veduta.fauna.read.silhouettes import SilhouetteLooks, silhouettes_of
+
+Floats = NDArray[np.float64]
+Masks = NDArray[np.bool_]
+Row = dict[str, Value]
+DATA = Path(os.environ.get("VEDUTA_DATA", Path(__file__).parents[3] / "shared" / "data"))
+MOUSE_STEP, MOUSE_FRAMES = 4, 73
+"""Every fourth frame of 250 a second, about three strides; every other of them is fitted."""
+SIDE_PX = 168
+"""Rows of the mouse's side view; under it is a view from below."""
+DARK = 18
+"""Grey levels: what is behind the mouse is darker."""
+
+
+def main() -> None:
+    """Measure all of it and keep the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", choices=("mouse", "goat"))
+    parser.add_argument("--kept", type=Path, help="where animals that are done are kept")
+    parser.add_argument("--no-keep", action="store_true")
+    given = parser.parse_args()
+    kept = KeptClips(given.kept)
+    makers: dict[str, Callable[[], Masks]] = {"mouse": mouse_masks, "goat": goat_masks}
+    rows = [
+        kept.row(name, partial(_measured, name, make))
+        for name, make in makers.items()
+        if given.only in (None, name)
+    ]
+    notes = [
+        "Even frames are fitted. `pose unseen`: the figure in an odd frame is the mean of those"
+        " before and after. All odd frames are judged; the median is the bound's.",
+        "Mouse: its side view, in which the picture's border cuts its back off; what is brighter"
+        " than the dark behind it, over the wheel on which it runs. Only what is in the picture"
+        " is judged. Its labels are of frames that are not here.",
+    ]
+    keep_or_print("fauna-unseen", rows, notes, not given.no_keep)
+
+
+def _measured(name: str, make: Callable[[], Masks]) -> Row:
+    masks = make()
+    even = np.arange(0, len(masks), 2)
+    seen = fit_limbed(masks[even], even, load_plan("quadruped"), LimbedLooks(), lambda: None)
+    return {
+        "what": f"{name}: silhouettes that the fit did not see, IoU of the median frame",
+        "value": float(np.median(unseen_scores(seen, masks))), "bound": "0.85",
+        "worst frame": float(np.min(unseen_scores(seen, masks))),
+        "seen frames": float(np.median(seen_scores(seen, masks[even]))),
+        "frames judged": len(masks) // 2,
+    }  # fmt: skip
+
+
+def unseen_scores(seen: LimbedSeen, masks: Masks) -> list[float]:
+    """The IoU in odd frames, the joints between those of both neighbours."""
+    joints, deep = _in_picture(seen)
+    between = 0.5 * (joints[:-1] + joints[1:])
+    return _scores(seen, between, deep, masks[1 : 2 * len(between) : 2])
+
+
+def seen_scores(seen: LimbedSeen, masks: Masks) -> list[float]:
+    """The IoU in the frames that were fitted."""
+    return _scores(seen, *_in_picture(seen), masks)
+
+
+def _in_picture(seen: LimbedSeen) -> tuple[Floats, Floats]:
+    scale = seen.fitted.px_per_length
+    return seen.windows.in_picture(seen.fitted.joints(), scale), seen.fitted.deep * scale
+
+
+def _scores(seen: LimbedSeen, joints: Floats, deep: Floats, masks: Masks) -> list[float]:
+    shape = (int(masks.shape[1]), int(masks.shape[2]))
+    return [
+        overlap(drawn_figure(seen.fitted.figure, at, deep, shape), mask)
+        for at, mask in zip(joints, masks, strict=True)
+    ]
+
+
+def goat_masks() -> Masks:
+    """(t, h, w) the goat's silhouettes, as the data set has them."""
+    folder = DATA / "animals" / "goat"
+    footage = read_footage(folder / "images", None)
+    return silhouettes_of(read_masks(folder / "masks", footage), SilhouetteLooks(), "goat").masks
+
+
+def mouse_masks() -> Masks:
+    """(t, h, w) the mouse from the side, over its wheel."""
+    footage = read_footage(DATA / "animals" / "mouse" / "test_vid.mp4", None)
+    grey = footage.frames[:, :SIDE_PX].max(axis=3)
+    still = np.median(grey[:: max(1, len(grey) // 60)], axis=0)
+    above = np.arange(SIDE_PX)[:, None] < _wheel(still)[None, :] - 7.0
+    spout = cv2.dilate((grey.min(axis=0) > 90).astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
+    step = MOUSE_STEP // int(footage.number[1] - footage.number[0])
+    chosen = grey[: MOUSE_FRAMES * step : step]
+    raw = np.zeros((len(chosen), *still.shape), dtype=np.bool_)
+    for row, picture in enumerate(chosen):
+        calm = cv2.GaussianBlur(picture, (0, 0), 1.0)
+        light = ((calm > DARK) & above & ~spout).astype(np.uint8)
+        count, labels, stats, _ = cv2.connectedComponentsWithStats(light, connectivity=8)
+        if count > 1:
+            raw[row] = labels == 1 + int(stats[1:, cv2.CC_STAT_AREA].argmax())
+    return raw
+
+
+def _wheel(still: Floats) -> Floats:
+    """(w,) the row of the wheel's upper rim in each column: a circle through its brightest."""
+    low = SIDE_PX // 2
+    columns = np.arange(still.shape[1], dtype=np.float64)
+    rim = low + still[low:].argmax(axis=0).astype(np.float64)
+    kept = still[low:].max(axis=0) > 40.0
+    for _ in range(5):
+        # x^2 + y^2 = 2 a x + 2 b y + c
+        matrix = np.stack([2.0 * columns, 2.0 * rim, np.ones_like(rim)], axis=1)
+        a, b, c = np.linalg.lstsq(matrix[kept], (columns**2 + rim**2)[kept], rcond=None)[0]
+        under = np.maximum(c + a * a + b * b - (columns - a) ** 2, 0.0)
+        circle = b - np.sqrt(under)
+        kept = np.abs(circle - rim) < 4.0
+    return np.asarray(circle)
+
+
+if __name__ == "__main__":
+    main()
