@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from veduta.fauna import demo
+from veduta.fauna.path.given import read_path
 from veduta.run.errors import UnwritableError
 from veduta.run.progress import Progress
 from veduta.synthetic.animals import Filmed
@@ -53,6 +54,9 @@ def test_a_film_that_was_broken_off_is_made_again(
     assert not (tmp_path / "film").exists()
     demo.run_demo_animal(tmp_path, Progress(quiet=True), force=False)
     assert [one.name for one in sorted(filmed[0].iterdir())] == [f"{n:03d}.png" for n in range(4)]
+    way = read_path(tmp_path / demo.WAY)
+    assert (way[:, 1] < -2.0).all()  # before the fronts, which are at y = 0
+    assert (way[2] - way[1]) @ (way[1] - way[0]) < 0.0  # there, and back again
 
 
 def test_a_frame_that_cannot_be_written_is_no_film(

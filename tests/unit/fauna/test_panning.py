@@ -125,6 +125,9 @@ def test_joints_in_the_pictures_of_a_moving_camera_go_with_them(tmp_path: Path) 
 def test_a_camera_that_stands_still_is_left_alone() -> None:
     footage, _ = _pan(0.0)
     assert stilled(footage, CameraLooks(), "still") is footage
+    noise = np.random.default_rng(2).normal(0.0, 4.0, footage.frames.shape)
+    noisy = _footage(np.clip(footage.frames + noise, 0, 255).astype(np.uint8))
+    assert stilled(noisy, CameraLooks(), "still") is noisy
 
 
 def test_a_moving_camera_with_nothing_to_follow_is_refused() -> None:

@@ -15,6 +15,8 @@ Floats = NDArray[np.float64]
 _MOST_BYTES = 3_000_000_000
 _FOR_MEDIAN, _BAND = 21, 64
 """Frames that the median is taken of, and rows of the canvas at a time."""
+_COMPARED = 7
+"""Frames that are compared with the middle one."""
 _AROUND = 5
 """So near to the animal (px) nothing is followed where its silhouettes are known."""
 
@@ -30,6 +32,8 @@ class CameraLooks:
     inlier_px: float = 1.5
     fewest: int = 16
     """Points on the background that must be followed from frame to frame."""
+    steepness: float = 1.0
+    """Grey levels on a pixel: an edge is steeper."""
     changed: float = 8.0
     """Grey levels by which a picture's rim differs from the next one's if the camera moved."""
     largest: float = 3.0
@@ -47,6 +51,8 @@ def stilled(
     reach, the canvas has the median of the others. NotFoundError where the picture's rim changes
     and nothing can be followed, or where the pan is too wide.
     """
+    if _stands_still(footage.frames, looks, animal):
+        return footage
     steps = _steps(footage.frames, looks, name, animal)
     middle = len(footage.frames) // 2
     onto = _chained(steps, middle)
@@ -74,17 +80,49 @@ def stilled(
     )
 
 
+def _stands_still(
+    frames: NDArray[np.uint8], looks: CameraLooks, animal: NDArray[np.bool_] | None
+) -> bool:
+    """Whether edges of some frames lie where they lie in the middle one, by most of their pixels.
+
+    How far an edge has moved is what changes there over how steep it is. Small errors of
+    homographies from frame to frame would add up to a motion.
+    """
+    middle = len(frames) // 2
+    here = _calm(frames[middle])
+    across, down = cv2.Sobel(here, cv2.CV_32F, 1, 0), cv2.Sobel(here, cv2.CV_32F, 0, 1)
+    steep = np.asarray(cv2.magnitude(across, down)) / 8.0  # a Sobel's sum for a ramp of 1 is 8
+    chosen = steep >= max(float(np.percentile(steep, 80.0)), looks.steepness)
+    if animal is not None:
+        chosen &= _beside(animal[middle]) > 0
+    if chosen.sum() < looks.fewest:
+        return False
+    for row in np.unique(np.linspace(0, len(frames) - 1, _COMPARED).round().astype(int)):
+        apart = np.abs(_calm(frames[row]) - here)[chosen] / steep[chosen]
+        if float(np.median(apart)) > looks.still_px / 2.0:
+            return False
+    return True
+
+
+def _calm(frame: NDArray[np.uint8]) -> NDArray[np.float32]:
+    grey = cv2.cvtColor(frame, cv2.COLOR_RGB2GRAY).astype(np.float32)
+    return np.asarray(cv2.GaussianBlur(grey, (0, 0), 1.5), dtype=np.float32)
+
+
+def _beside(animal: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """(h, w) 255 where no animal is near."""
+    reach = np.ones((2 * _AROUND + 1, 2 * _AROUND + 1), np.uint8)
+    return np.asarray(255 - 255 * cv2.dilate(animal.astype(np.uint8), reach), dtype=np.uint8)
+
+
 def _steps(
     frames: NDArray[np.uint8], looks: CameraLooks, name: str, animal: NDArray[np.bool_] | None
 ) -> Floats:
     """(t, 3, 3) from each frame to the one before it; the first is no motion."""
-    reach = np.ones((2 * _AROUND + 1, 2 * _AROUND + 1), np.uint8)
     grey = [np.asarray(cv2.cvtColor(frame, cv2.COLOR_RGB2GRAY), dtype=np.uint8) for frame in frames]
     found = np.tile(np.eye(3), (len(frames), 1, 1))
     for row in range(1, len(grey)):
-        free: NDArray[np.uint8] | None = None
-        if animal is not None:
-            free = np.asarray(255 - 255 * cv2.dilate(animal[row].astype(np.uint8), reach), np.uint8)
+        free = None if animal is None else _beside(animal[row])
         matrix = _between(grey[row], grey[row - 1], looks, free)
         if matrix is not None:
             found[row] = matrix
