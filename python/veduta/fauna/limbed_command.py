@@ -41,17 +41,18 @@ def _tell(work: Work, animal: LimbedAnimal, built: BuiltLimbed) -> None:
             ],
         )
     )  # fmt: skip
-    work.table(
-        Table(
-            "Gaits",
-            ("gait", "foot", "comes down", "goes up", "stands for"),
-            [
-                (gait.name, step.limb, step.down, step.up, (step.up - step.down) % 1.0)
-                for gait in animal.gaits
-                for step in gait.feet
-            ],
+    if animal.gaits:
+        work.table(
+            Table(
+                "Gaits",
+                ("gait", "foot", "comes down", "goes up", "stands for"),
+                [
+                    (gait.name, step.limb, step.down, step.up, (step.up - step.down) % 1.0)
+                    for gait in animal.gaits
+                    for step in gait.feet
+                ],
+            )
         )
-    )
     work.measure("length_m", animal.length.metres)
     work.measure("frames_used", animal.source.used)
     work.fact("length", f"{animal.length.metres:.3g} m ({animal.length.provenance})")

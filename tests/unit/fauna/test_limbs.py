@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -93,6 +94,21 @@ def test_the_loss_falls_as_its_gradient_says() -> None:
         # The taper's own turn is left out of the gradient: it is small.
         measured = (ahead - behind) / (2.0 * step)
         assert abs(measured - gradient @ way) < 0.25 * abs(measured) + 0.01, name
+
+
+def test_what_leaves_the_windows_is_pulled_back() -> None:
+    figure = figure_of(load_plan("quadruped"), ("ear", "horn", "beard"))
+    masks = np.zeros((5, 60, 90), dtype=np.bool_)
+    masks[:, 15:35, 10:75] = True
+    frames = np.arange(5.0)
+    looks = replace(FitLooks(), weight=0.0)
+    fit = Fit(figure, windows_of(masks, 40), cycle_basis(frames, 5.0, looks), looks, frames)
+    away = np.zeros(fit.size)
+    fit.part(away, "root")[:, 0] = 30.0  # three lengths
+    near = 0.9 * away
+    far_loss, gradient, _ = fit.loss(away, 70.0, 0.05)
+    assert far_loss > fit.loss(near, 70.0, 0.05)[0] + 1.0
+    assert (fit.part(gradient, "root")[:, 0] > 0.0).all()
 
 
 def test_silhouettes_repeat_after_half_a_stride() -> None:

@@ -218,8 +218,19 @@ def _bent(
     hung = float(np.mean([skin.rest[leg.joints[0], 2, 3] for leg in walker.legs]))
     upright = np.array([0.0, 0.0, 1.0]) - frame[:, :, 2]
     placed += hung * upright[:, None]
+    # Its middle goes along the path: what sways is the body about that.
+    placed[..., :2] -= _off_the_path(walker, placed, curve, way)[:, None]
     world[:, 0], placed[:, 0] = frame, origin
     return Joints(world, placed)
+
+
+def _off_the_path(walker: Walker, places: Floats, line: Curve | Pivot, way: Floats) -> Floats:
+    """(t, 2) from the path to the body's middle: that of where its legs hang, or of all joints of a
+    body without legs.
+    """
+    rows = [leg.joints[0] for leg in walker.legs] or np.flatnonzero(walker.spine).tolist()
+    there = line.at(way[:, None] + walker.skin.rest[rows, 0, 3])
+    return np.asarray((places[:, rows, :2] - there).mean(axis=1))
 
 
 def _middles(skin: Skin) -> Floats:
@@ -312,12 +323,12 @@ def _planted(
 
 
 def _aside(walker: Walker, laid: Joints, pieces: tuple[Piece, ...]) -> float:
-    """How far the body's middle is from the path at worst, on the flat.
-
-    It is that of where its legs hang, or of all joints of a body without legs.
-    """
-    rows = [leg.joints[0] for leg in walker.legs] or np.flatnonzero(walker.spine).tolist()
-    ahead = walker.skin.rest[rows, 0, 3]
-    there = np.concatenate([piece.line.at(piece.way[:, None] + ahead) for piece in pieces])
-    away = (laid.places[:, rows, :2] - there).mean(axis=1)
+    """How far the body's middle is from the path at worst, on the flat."""
+    cuts = np.cumsum([len(piece.times) for piece in pieces])[:-1]
+    away = np.concatenate(
+        [
+            _off_the_path(walker, places, piece.line, piece.way)
+            for places, piece in zip(np.split(laid.places, cuts), pieces, strict=True)
+        ]
+    )
     return float(np.linalg.norm(away, axis=1).max())

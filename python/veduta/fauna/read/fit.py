@@ -41,6 +41,10 @@ class FitLooks:
     """Of the root's acceleration between frames, in lengths."""
     pin: float = 20.0
     """The loss of a marked joint that is a length away; they pull by the square."""
+    beyond: float = 20.0
+    """The loss of a joint that is a length outside of the windows, where no cell is looked at; by
+    the square, too.
+    """
     weight: float = 1e-3
     """Of all that beside the silhouettes: the loss of a deviation in one number."""
     hanging: float = 0.5
@@ -197,6 +201,7 @@ class Fit:
             self.windows.flat(), self.weights, soft,
         )  # fmt: skip
         count = len(root)
+        self._hold(seen, pose.joints, px_per_length)
         if self.pinned:
             self._pull(seen, pose.joints, px_per_length)
         by_root, by_angles, by_length, by_apart = back_through(
@@ -234,6 +239,14 @@ class Fit:
         rooted[2:] += push
         prior[place] = rooted.ravel()
         return total, gradient + prior, seen.loss
+
+    def _hold(self, seen: Cover, joints: Floats, px_per_length: float) -> None:
+        """Joints outside of the windows are pulled back: there is no animal."""
+        height, width = self.windows.shares.shape[1:]
+        half = 0.5 * np.array([width, height]) * self.windows.cell_px / px_per_length
+        over = joints - np.clip(joints, -half, half)
+        seen.loss[:] += self.looks.beyond * (over**2).sum(axis=(1, 2))
+        seen.by_joint[:] += 2.0 * self.looks.beyond * over
 
     def _pull(self, seen: Cover, joints: Floats, px_per_length: float) -> None:
         """Marked joints pull: the squared distance, in lengths, is a loss, too."""
