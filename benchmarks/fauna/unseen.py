@@ -35,8 +35,8 @@ Floats = NDArray[np.float64]
 Masks = NDArray[np.bool_]
 Row = dict[str, Value]
 DATA = Path(os.environ.get("VEDUTA_DATA", Path(__file__).parents[3] / "shared" / "data"))
-MOUSE_STEP, MOUSE_FRAMES = 4, 73
-"""Every fourth frame of 250 a second, about three strides; every other of them is fitted."""
+MOUSE_STEP, MOUSE_FRAMES = 4, 57
+"""Every fourth frame of 250 a second, about two strides; every other of them is fitted."""
 SIDE_PX = 168
 """Rows of the mouse's side view; under it is a view from below."""
 DARK = 18
