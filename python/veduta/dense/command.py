@@ -35,6 +35,7 @@ from veduta.dense.read.pictures import (
 from veduta.dense.read.sparse import SparsePoints, match_points
 from veduta.dense.read.walls import WALLS, read_elevations
 from veduta.dense.single import require_view, single_mesh
+from veduta.dense.streaming import write_tiles
 from veduta.dense.telling import (
     middle_depths_m,
     tell_depths,
@@ -159,6 +160,8 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
         stand = place_from_cameras(given.cameras, cloud.points_m)
         tell_standing(work, stand)
         write_place(work, place, views, pictures, middle, stand)
+    if options.surface.tiles and mesh is not None:
+        write_tiles(work, next(iter(place.parts.values())))
     tell_result(work, place, cloud, mesh)
 
 

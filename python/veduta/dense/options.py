@@ -71,6 +71,12 @@ class SurfaceOptions(Options):
     max_atlas_px: Annotated[int, Field(ge=256, le=16_384)] = Field(
         default=4096, description="longest side of the mesh's texture (px)"
     )
+    tiles: bool = Field(
+        default=False,
+        description=(
+            "the mesh in levels of detail, too (3D Tiles): the studio fetches what it needs of it"
+        ),
+    )
 
 
 class ModelOptions(Options):

@@ -76,5 +76,7 @@ def write_place(
     """
     place.cameras = place_cameras(views, pictures)
     place.start = start_at(views, sorted(pictures), depth_m)
+    if place.parts:
+        place.hidden = ("points",)  # they would lie on the mesh like dust
     stand_up(place, stand).save(work.folder)
     work.file("place.json", "the place: `veduta view` shows it")

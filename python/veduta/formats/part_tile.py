@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from veduta.formats.gltf import glb_bytes
 from veduta.formats.gltf_bin import glb_container
 from veduta.formats.gltf_instances import FEATURES
+from veduta.formats.mesh_glb import mesh_glb_bytes
 from veduta.formats.tile_glb import NO_SIZE_MM, BuildingRow, buildings_table, schema
+from veduta.place.mesh import Mesh
 from veduta.place.part import Features, Part
 
 METADATA, MESH_FEATURES = "EXT_structural_metadata", "EXT_mesh_features"
@@ -47,8 +49,18 @@ class _Chunk:
 
 def part_tile(part: Part, name: str) -> bytes:
     """The GLB. name: of the thing that all of it belongs to. Lamps are no lights there."""
-    root, content = _opened(glb_bytes(replace(part, lamps=(), notes=()), most_nodes=0))
-    told = {"featureCount": len(part.features), "attribute": 0, "propertyTable": 0}
+    glb = glb_bytes(replace(part, lamps=(), notes=()), most_nodes=0)
+    return _with_tables(glb, part.features, BuildingRow(part.id, name))
+
+
+def mesh_tile(mesh: Mesh, name: str) -> bytes:
+    """The GLB of a mesh. name: as that of `part_tile`."""
+    return _with_tables(mesh_glb_bytes(mesh), mesh.features, BuildingRow(mesh.id, name))
+
+
+def _with_tables(glb: bytes, features: Features, row: BuildingRow) -> bytes:
+    root, content = _opened(glb)
+    told = {"featureCount": len(features), "attribute": 0, "propertyTable": 0}
     used = {*root.get("extensionsUsed", ()), METADATA}
     for mesh in root["meshes"]:
         for primitive in mesh["primitives"]:
@@ -60,7 +72,7 @@ def part_tile(part: Part, name: str) -> bytes:
             node["extensions"][FEATURES] = {"featureIds": [told]}
     root["scenes"][0].pop("extras", None)
     chunk = _Chunk(root, content)
-    tables = [_surfaces(part.features, chunk), buildings_table([BuildingRow(part.id, name)], chunk)]
+    tables = [_surfaces(features, chunk), buildings_table([row], chunk)]
     root["extensions"] = root.get("extensions", {}) | {
         METADATA: {"schema": schema(()), "propertyTables": tables}
     }

@@ -61,7 +61,10 @@ def start_at(views: Views, order: list[int], depth_m: dict[int, float]) -> Start
     middle = int(np.linalg.norm(eyes - np.median(eyes, axis=0), axis=1).argmin())
     ahead = views.cameras[known[middle]].cam_from_world[2, :3]
     depth = depth_m[known[middle]]
-    eye, target = eyes[middle] - 0.35 * depth * ahead, eyes[middle] + depth * ahead
+    # Around an object one steps back to see all photos; in a street there is no room behind.
+    room = float(np.median(np.linalg.norm(eyes - eyes[middle], axis=1)))
+    back = min(0.35 * depth, 0.5 * room)
+    eye, target = eyes[middle] - back * ahead, eyes[middle] + depth * ahead
     return Start(eye=_vector(eye), target=_vector(target))
 
 
