@@ -18,8 +18,10 @@ from library_pages import classes_text, formats_rows, functions_text, rules_text
 from pydantic import BaseModel
 from style_tables import attribute_rows
 
+from veduta.cli.carve_call import CarveCall
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.dense_call import DenseCall
+from veduta.cli.drive_call import DriveCall
 from veduta.cli.facade_call import FacadeCall
 from veduta.cli.fauna_call import FaunaCall
 from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
@@ -64,8 +66,12 @@ def _model_rows(model: type[BaseModel]) -> list[Sequence[str]]:
     """A row per field."""
     rows: list[Sequence[str]] = []
     for option in declared_options(model):
-        shown = "" if option.default in (None, False) else f"`{option.default}`"
-        rows.append((f"`{option.flag}`", _takes(option.value), shown, option.description))
+        shown, word = f"`{option.default}`", option.flag
+        if option.default is True:
+            shown, word = "on", flag(f"no_{option.name}")
+        elif option.default in (None, False):
+            shown = ""
+        rows.append((f"`{word}`", _takes(option.value), shown, option.description))
     return rows
 
 
@@ -89,7 +95,10 @@ def _argument_row(call: type[Any], name: str, annotation: Any) -> Sequence[str]:
     if POSITIONAL in annotation.__metadata__:
         flags = f"`{settings.metavar}`"
     takes = "flag" if default is False else settings.metavar.removesuffix("...")
-    return flags, takes, "required" if required else "", settings.help
+    shown = (
+        "" if default in (None, False, ()) or settings.help_behavior_hint == "" else f"`{default}`"
+    )
+    return flags, takes, "required" if required else shown, settings.help
 
 
 def files_table(files: Sequence[tuple[str, str]]) -> str:
@@ -185,7 +194,9 @@ def _listed(words: Sequence[str]) -> str:
 TABLES: dict[str, dict[str, Callable[[], str]]] = {
     "assets.md": {"assets": assets_table},
     "demo.md": {"options": lambda: options_table(DemoCall)},
+    "carve.md": {"options": lambda: options_table(CarveCall)},
     "dense.md": {"options": lambda: options_table(DenseCall)},
+    "drive.md": {"options": lambda: options_table(DriveCall)},
     "facade.md": {
         "options": lambda: options_table(FacadeCall),
         "files": lambda: files_table(FILES),

@@ -1,4 +1,4 @@
-"""Whether two versions of Veduta write the same bytes: a fixed set of calls of the old verbs.
+"""Whether two versions of Veduta write the same bytes: a fixed set of calls of all verbs.
 
     .venv/bin/python scripts/same_bytes.py BEFORE [AFTER] [--only NAME]... [--keep DIR]
 
@@ -27,7 +27,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from byte_calls import CALLS, ROOT, Call, command, write_inputs
+from byte_calls import CALLS, ROOT, Call, command
+from byte_inputs import write_inputs
 
 EXTENSION = "python/veduta/_core.abi3.so"
 RUST = ("crates", "Cargo.toml", "Cargo.lock")

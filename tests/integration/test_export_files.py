@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 from pathlib import Path
 
@@ -78,15 +77,3 @@ def test_a_closed_output_is_no_bug() -> None:
     line = " ".join([*command("export", "any", "--to", "list"), ">&-"])
     done = subprocess.run(["/bin/sh", "-c", line], stderr=subprocess.PIPE, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-
-
-@pytest.mark.parametrize("verb", ["facade", "plan"])
-def test_a_name_that_is_not_utf8_is_named(verb: str, photo: Path, tmp_path: Path) -> None:
-    name = os.fsdecode(os.fsencode(tmp_path) + b"/\xe9cole.png")
-    Path(name).write_bytes(photo.read_bytes())
-    done = subprocess.run(
-        command(verb, name, "-o", tmp_path / "out"), capture_output=True, check=False
-    )
-    assert done.returncode == 2
-    assert rb"\xe9cole" in done.stderr
-    assert rb": has a name that is not UTF-8. Rename it." in done.stderr

@@ -13,12 +13,15 @@ from numpy.typing import NDArray
 from veduta.cameras.mat_file import DamagedError, parse_mat
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import Limits, limited
 
 LARGEST_TEXT_BYTES = 400_000_000
 """Of a JSON file with the tracks of 20,000 photos."""
 LARGEST_LIST_BYTES = 50_000_000
 """Of a file that only lists cameras: 200,000 lines of 22 numbers."""
 LARGEST_SIDE_PX = 100_000
+_MAT_LIMITS = Limits(memory_mb=2500, seconds=60)
+"""A variable may be of 1 GB."""
 COPY_AGAIN = "Copy it again, or export it again from the software that made it."
 
 
@@ -103,7 +106,14 @@ def read_json(path: Path) -> Any:
 
 
 def read_mat(path: Path) -> dict[str, Any]:
-    """The variables of a MATLAB file (up to version 7.2); InputError where it is damaged."""
+    """The variables of a MATLAB file (up to version 7.2); InputError where it is damaged.
+
+    It is unpacked in a process with limits: a megabyte may hold a thousand of them.
+    """
+    return limited(_read_mat, path, path, COPY_AGAIN, _MAT_LIMITS)
+
+
+def _read_mat(path: Path) -> dict[str, Any]:
     data = read_bytes(path, LARGEST_TEXT_BYTES)
     if data[:4] == b"\x89HDF" or b"MATLAB 7.3" in data[:32]:
         raise InputError(path, "is a MATLAB 7.3 file", "Save it with `save(name, '-v7')`.")

@@ -35,6 +35,7 @@ from veduta.place.mesh import Mesh
 from veduta.run.card import choose_engine, tell_engine
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.names import real_path
 from veduta.run.page import Bars
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
@@ -62,7 +63,7 @@ def run_carve(
     call = VerbCall(
         command="carve",
         version=VERSION,
-        subject=base.resolve().name,
+        subject=real_path(base).name,
         options=options,
         inputs=[cameras_digest(cameras), masks],
     )

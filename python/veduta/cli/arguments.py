@@ -7,13 +7,15 @@ import os
 import types
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import tyro
 
 from veduta.cli.choices import require_choices
+from veduta.cli.missing import require_given
 from veduta.cli.numbers import require_numbers
 from veduta.cli.values import require_values
+from veduta.run.options import Options
 
 T = TypeVar("T")
 _METAVARS = {int: "INT", float: "FLOAT", str: "STR", Path: "PATH"}
@@ -34,11 +36,13 @@ def parse(
     description: stands at the top of the help, in place of the call's docstring.
     """
     if not {"-h", "--help"} & set(arguments):
+        require_given(call, arguments, prog)
         require_numbers(call, arguments)
         require_choices(call, arguments)
         require_values(call, arguments)
     registry = tyro.constructors.ConstructorRegistry()
     registry.primitive_rule(_optional)
+    registry.struct_rule(_model)
     with registry:
         return tyro.cli(
             call,
@@ -47,6 +51,32 @@ def parse(
             description=description or inspect.cleandoc(call.__doc__ or ""),
             config=config,
         )
+
+
+def _model(
+    info: tyro.constructors.StructTypeInfo,
+) -> tyro.constructors.StructConstructorSpec | None:
+    """The fields of an options model; what is on by itself says with which word it is off."""
+    if not (isinstance(info.type, type) and issubclass(info.type, Options)):
+        return None
+    hints = get_type_hints(info.type, include_extras=True)
+    fields = []
+    for name, known in info.type.model_fields.items():
+        kind, given = hints[name], getattr(info.default, name, None)
+        default = known.get_default(call_default_factory=True) if given is None else given
+        if kind is bool and default is True:
+            hint = f"(on unless --no-{name.replace('_', '-')})"
+            kind = Annotated[bool, tyro.conf.arg(help_behavior_hint=hint)]
+        missing = known.is_required() and given is None
+        fields.append(
+            tyro.constructors.StructFieldSpec(
+                name=name,
+                type=kind,
+                default=tyro.MISSING if missing else default,
+                helptext=known.description,
+            )
+        )
+    return tyro.constructors.StructConstructorSpec(instantiate=info.type, fields=tuple(fields))
 
 
 def _bare(kind: Any) -> Any:

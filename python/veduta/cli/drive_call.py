@@ -30,7 +30,7 @@ Document = Annotated[
         help="an edited drive.json of this log: its path and segments are taken",
     ),
 ]
-Seed = Annotated[int, tyro.conf.arg(help="seed of what is drawn at random")]
+Seed = Annotated[int, tyro.conf.arg(metavar="INT", help="seed of what is drawn at random")]
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,7 @@ def _files(call: ExportCall) -> int:
     """Write the place as one file or several."""
     from veduta.place.registry import format_named, format_of
     from veduta.run.errors import InputError
+    from veduta.run.names import real_path
     from veduta.studio.content import place_folder
 
     targets: list[tuple[PlaceFormat, Path]] = []
@@ -51,7 +52,7 @@ def _files(call: ExportCall) -> int:
         targets.append((format_of(call.file), call.file))
     folder = call.folder
     if call.to is not None and folder is not None:
-        stem = call.out.resolve().name or "place"
+        stem = real_path(call.out).name or "place"
         for name in call.to.split(","):
             one = format_named(name.strip())
             targets.append((one, folder / f"{stem}{one.suffix}"))

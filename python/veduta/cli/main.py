@@ -16,13 +16,15 @@ import sys
 import tempfile
 import traceback
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import FrameType
 from typing import NoReturn
 
 import veduta
+from veduta.cli.plain_words import plain_words
 from veduta.cli.streams import drop_output, outlive_readers
 from veduta.run.errors import InputError, NotFoundError, UnfinishedError, VedutaError
+from veduta.run.names import printable
 from veduta.run.threads import same_sums_anywhere
 
 VERBS = (
@@ -53,14 +55,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     same_sums_anywhere()
     # GEOS divides by zero where it mitres a corner that is none; what it gives is right.
     warnings.filterwarnings("ignore", ".* encountered in buffer", RuntimeWarning)
-    return _guarded(verb, words)
+    return _guarded(verb, lambda: _plainly(verb, words))
 
 
-def _guarded(verb: str, words: list[str]) -> int:
+def _plainly(verb: str, words: list[str]) -> int:
+    """Run a verb under names that are UTF-8; its errors are told by those that were given."""
+    module = importlib.import_module(f"veduta.cli.{verb}")
+    with plain_words(verb, words) as plain:
+        return _guarded(verb, lambda: int(module.run(plain)))
+
+
+def _guarded(verb: str, run: Callable[[], int]) -> int:
     """Run a verb; every error becomes a line on standard error and an exit code."""
     try:
-        module = importlib.import_module(f"veduta.cli.{verb}")
-        code = int(module.run(words))
+        code = run()
         if sys.stdout is not None:
             sys.stdout.flush()
         return code
@@ -164,7 +172,7 @@ def _stop(number: int, frame: FrameType | None) -> NoReturn:
 
 
 def _say(text: str) -> None:
-    print(text, file=sys.stderr)
+    print(printable(text), file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -29,7 +29,9 @@ def run(arguments: list[str]) -> int:
         call.drawings, call.out, call.options(), progress, photos=photos, force=call.force
     )
     if result.failure:
-        print(f"error: {result.failure.subject}: {result.failure.reason}", file=sys.stderr)
+        subject, reason = result.failure.subject, result.failure.reason
+        named = reason if subject in reason else f"{subject}: {reason}"
+        print(f"error: {named}", file=sys.stderr)
     if not call.quiet:
         _tell(result)
     return result.exit_code

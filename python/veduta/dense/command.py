@@ -47,6 +47,7 @@ from veduta.place.mesh import Mesh
 from veduta.run.card import Engine, choose_engine
 from veduta.run.digests import file_digest
 from veduta.run.errors import NotFoundError
+from veduta.run.names import real_path
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
@@ -90,7 +91,7 @@ def run_dense(
     found = in_metres(read_cameras(cameras, images), chosen.scale)
     usable, left = usable_cameras(found)
     require_view(chosen.surface, usable)
-    name = cameras.resolve().name
+    name = real_path(cameras).name
     grown = chosen.scale.metres_per_unit or 1.0
     walls = [one.grown(grown) for one in read_elevations(cameras)] if cameras.is_dir() else []
     digests: JsonValue = [cameras_digest(found, usable)]

@@ -31,6 +31,7 @@ from veduta.drive.stages import layer_segments, texture_segments
 from veduta.formats.laz import write_laz_parts
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.names import given_name, real_path
 from veduta.run.page import Table
 from veduta.run.progress import Progress
 from veduta.run.report import Count
@@ -62,9 +63,9 @@ def run_drive(
     if document is not None:
         edited = (document, load_document(document))
         inputs.append(["edited", file_digest(document)])
-        in_place = document.resolve() == (out / DOCUMENT).resolve()
+        in_place = real_path(document) == real_path(out / DOCUMENT)
     name = "drive" if edited is None else "drive (rebuild)"
-    call = VerbCall(name, VERSION, log.name or str(log), options, inputs, in_place)
+    call = VerbCall(name, VERSION, log.name or given_name(log), options, inputs, in_place)
     make = partial(_make, log, options, edited, inputs)
     return run_verb(call, out, make, progress, force=force)
 

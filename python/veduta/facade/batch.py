@@ -20,6 +20,7 @@ from veduta.facade.pipeline import VERSION
 from veduta.facade.report import call_report
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 from veduta.run.options import Options, flag
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Outcome, Task, run_tasks
@@ -207,8 +208,8 @@ def _check_documents(call: Call, options: FacadeOptions) -> None:
 
 
 def _is_in_place(source: Input, out: Path) -> bool:
-    return source.kind == "document" and source.path.resolve() == (
-        out.resolve() / source.name / DOCUMENT
+    return source.kind == "document" and real_path(source.path) == (
+        real_path(out) / source.name / DOCUMENT
     )
 
 

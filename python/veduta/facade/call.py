@@ -18,6 +18,7 @@ from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.names import real_path
 
 Kind = Literal["photo", "document"]
 RESERVED = {"place.json", "report.json", "report.html"}
@@ -95,7 +96,7 @@ def _files(path: Path) -> tuple[list[Path], list[Path]]:
 
 def _each_once(files: list[Path]) -> list[Path]:
     # `Path.resolve` raises RuntimeError at a link to itself.
-    return list({os.path.realpath(file): file for file in reversed(files)}.values())[::-1]
+    return list({real_path(file): file for file in reversed(files)}.values())[::-1]
 
 
 def _kind(path: Path) -> Kind:
@@ -105,7 +106,7 @@ def _kind(path: Path) -> Kind:
 def _name(path: Path) -> str:
     """The image's stem; for `OUT/x/facade.json` it is `x`, as it was for the image."""
     if path.name == DOCUMENT:
-        return Path(os.path.realpath(path)).parent.name
+        return real_path(path).parent.name
     return path.stem
 
 

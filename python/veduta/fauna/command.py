@@ -28,6 +28,7 @@ from veduta.place.material import Texture
 from veduta.place.place import Place
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 from veduta.run.page import Table
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
@@ -66,9 +67,9 @@ def _digests(record: Path, out: Path) -> JsonValue:
     """Of a file, or of all files of a folder but those of OUT, which may lie in it."""
     if record.is_file():
         return [file_digest(record)]
-    own = out.resolve()
+    own = real_path(out)
     files = sorted(
-        path for path in record.rglob("*") if path.is_file() and own not in path.resolve().parents
+        path for path in record.rglob("*") if path.is_file() and own not in real_path(path).parents
     )
     return [f"{path.relative_to(record)} {file_digest(path)}" for path in files]
 

@@ -15,6 +15,7 @@ from veduta.imaging.srgb import srgb_of_linear
 from veduta.place.material import Colour
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import limited
 
 if TYPE_CHECKING:
     import trimesh
@@ -27,9 +28,13 @@ def read_glb_mesh(path: Path, most_corners: int = MOST_CORNERS) -> ReadMesh:
 
     most_corners: of all triangles together.
     """
-    # Here, as trimesh takes longer to import than all else that most calls need.
-    import trimesh
+    return limited(_read, (path, most_corners), path, _REMEDY)
 
+
+def _read(asked: tuple[Path, int]) -> ReadMesh:
+    import trimesh  # here, as only the process that reads needs it
+
+    path, most_corners = asked
     try:
         require_file(path, LARGEST_BYTES)
         data = path.read_bytes()

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from veduta.place.material import Colour
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.names import real_path
 
 LARGEST_BYTES = 32 * 2**20
 MOST_CORNERS = 600_000
@@ -111,10 +112,10 @@ def _text(path: Path) -> str:
 
 def _colours(path: Path, root: Path) -> dict[str, Colour]:
     """The diffuse colours of a material file; none where it is missing or lies elsewhere."""
-    real = os.path.realpath(path)
-    if not os.path.isfile(real) or os.path.commonpath(
-        [os.path.realpath(root), real]
-    ) != os.path.realpath(root):
+    real = str(real_path(path))
+    if not os.path.isfile(real) or os.path.commonpath([str(real_path(root)), real]) != str(
+        real_path(root)
+    ):
         return {}
     found: dict[str, Colour] = {}
     name = ""

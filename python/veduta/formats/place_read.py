@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +20,7 @@ from veduta.formats.glb_mesh import read_glb_mesh
 from veduta.formats.gltf_chunks import BROKEN, glb_chunks, glb_content
 from veduta.formats.mesh_glb_read import read_model
 from veduta.formats.obj_read import ReadMesh, read_obj
+from veduta.formats.triangles_read import ReadPoints, read_triangles
 from veduta.place.builder import PartBuilder
 from veduta.place.features import feature_table
 from veduta.place.material import Material
@@ -29,13 +29,9 @@ from veduta.place.part import Part
 from veduta.place.place import Cloud, Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
-
-if TYPE_CHECKING:
-    import trimesh
+from veduta.run.limits import limited
 
 _CLASSES = {one.value: one for one in SemanticClass}
-_LARGEST_BYTES = 2 * 2**30
 
 
 def read_glb_place(path: Path) -> Place:
@@ -57,29 +53,16 @@ def read_obj_place(path: Path) -> Place:
 
 def read_trimesh_place(path: Path) -> Place:
     """The triangles of an STL or PLY file; of a PLY file without any, its points."""
-    import trimesh
-
-    try:
-        require_file(path, _LARGEST_BYTES)
-        found = trimesh.load(path, process=False)
-    except FileNotFoundError:
-        raise InputError(path, "does not exist", "Check its name.") from None
-    except (ValueError, KeyError, IndexError, TypeError, OSError, MemoryError) as error:
-        fault = f"is no {path.suffix[1:].upper()} file that can be read ({error})"
-        raise InputError(path, fault, "Export it again.") from error
+    read = limited(read_triangles, path, path, "Export it again.")
     place = Place(title=path.stem)
-    if isinstance(found, trimesh.PointCloud):
-        points = np.asarray(found.vertices, dtype=np.float64)
-        place.clouds.append(Cloud(path.stem, points, _colours(found, len(points))))
-    elif isinstance(found, trimesh.Trimesh) and len(found.faces):
-        try:
-            place.add(_mesh(found, path.stem))
-        except ValueError as error:
-            raise InputError(path, f"is no mesh ({error})", "Export it again.") from error
-    else:
-        raise InputError(
-            path, "has neither triangles nor points", "Check that it is the right one."
-        )
+    if isinstance(read, ReadPoints):
+        place.clouds.append(Cloud(path.stem, read.points_m, read.colours))
+        return place
+    try:
+        mesh = Mesh.simple(path.stem, read.vertices_m, read.triangles, colours=read.colours)
+    except ValueError as error:
+        raise InputError(path, f"is no mesh ({error})", "Export it again.") from error
+    place.add(mesh)
     return place
 
 
@@ -169,20 +152,3 @@ def _unique(
         count = seen[name] = seen.get(name, 0) + 1
         made.append((semantic, provenance, name if count == 1 else f"{name} ({count})"))
     return made
-
-
-def _mesh(found: trimesh.Trimesh, part_id: str) -> Mesh:
-    import trimesh
-
-    vertices = np.asarray(found.vertices, dtype=np.float64)
-    colours = None
-    if isinstance(found.visual, trimesh.visual.ColorVisuals) and found.visual.kind == "vertex":
-        colours = np.asarray(found.visual.vertex_colors, dtype=np.uint8)[:, :3].copy()
-    return Mesh.simple(part_id, vertices, np.asarray(found.faces), colours=colours)
-
-
-def _colours(found: trimesh.PointCloud, count: int) -> NDArray[np.uint8]:
-    given = np.asarray(found.colors, dtype=np.uint8)
-    if given.shape[:1] != (count,) or given.ndim != 2:
-        return np.full((count, 3), 200, dtype=np.uint8)
-    return given[:, :3].copy()

@@ -43,6 +43,7 @@ from veduta.place.place import Standing as PartStanding
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.errors import InputError
+from veduta.run.names import given_name
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
 from veduta.run.progress import Progress
@@ -203,7 +204,7 @@ def _call(
         told_of = f"is for up to {MOST_SEPARATE:,} lots, and here are {len(lots.lots):,}"
         raise InputError("--separate", told_of, "Leave it out: tiles have all buildings.")
     squares = squares_of(lots.lots, ask_beside=compiled.asks_beside)
-    source = rules_name if lots_path is None else str(lots_path)
+    source = rules_name if lots_path is None else given_name(lots_path)
     made_of: list[JsonValue] = [files_digest(files), assets, textures_digests(textures)]
     made_of += [asked.digest()] if asked.names else []
     keys = {
@@ -272,7 +273,8 @@ def _has_city(folder: OutFolder, call: _Call) -> bool:
 
 def files_digest(files: Sequence[tuple[str, str]]) -> str:
     """The digest of all rule files and their names."""
-    return hashlib.sha256(json.dumps(files).encode()).hexdigest()
+    told = [(given_name(name), text) for name, text in files]
+    return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 
 
 def _key(step: str, options: GrammarOptions, inputs: JsonValue) -> str:

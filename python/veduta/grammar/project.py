@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 RULES = "rules"
 SIGNS = ("assets", "models", "maps", "scenes", "data", "images", ".project", ".cityengine")
@@ -33,7 +34,7 @@ class SearchPath:
     @staticmethod
     def of(folder: Path) -> SearchPath:
         """A folder alone."""
-        return SearchPath((folder,), (os.path.realpath(folder),))
+        return SearchPath((folder,), (str(real_path(folder)),))
 
     def find(self, name: str) -> Path | None:
         """The file of this name; None where there is none in the folders."""
@@ -55,7 +56,7 @@ class SearchPath:
 
     def holds(self, path: Path) -> bool:
         """Whether a file is there, and lies in the folders that nothing may leave."""
-        real = os.path.realpath(path)
+        real = str(real_path(path))
         return os.path.isfile(real) and any(
             os.path.commonpath([root, real]) == root for root in self.within
         )
@@ -90,7 +91,7 @@ def search_path(
         _require_folder("--library", library)
         folders.append(library)
     roots = [own if found is None else found, own, *libraries]
-    within = tuple(dict.fromkeys(os.path.realpath(root) for root in roots))
+    within = tuple(dict.fromkeys(str(real_path(root)) for root in roots))
     return SearchPath(tuple(dict.fromkeys(folders)), within)
 
 

@@ -21,6 +21,7 @@ from veduta.grammar.rule_packages import SUFFIX as PACKAGE
 from veduta.grammar.rule_packages import unpacked
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.names import real_path
 
 MAX_BYTES = 8 * 2**20
 """Of one file, as the parser has it."""
@@ -176,5 +177,5 @@ def _read(path: Path) -> tuple[str, str | None]:
 
 def _is_of_styles(path: Path) -> bool:
     """Whether it is a file of the styles that Veduta brings along."""
-    real = os.path.realpath(path)
-    return os.path.isfile(real) and real.startswith(os.path.realpath(STYLES) + os.sep)
+    real = str(real_path(path))
+    return os.path.isfile(real) and real.startswith(str(real_path(STYLES)) + os.sep)

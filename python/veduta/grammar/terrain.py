@@ -18,6 +18,7 @@ from PIL import Image
 
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import Limits, limited
 
 MAX_BYTES = 2 * 2**30
 MAX_CELLS = 250_000_000
@@ -30,6 +31,8 @@ Ground = Literal["lowest", "mean"]
 _SCALE, _TIE, _MATRIX, _KEYS, _NO_DATA = 33550, 33922, 34264, 34735, 42113
 _RASTER_TYPE, _GEOGRAPHIC, _PROJECTED = 1025, 2048, 3072
 _POINT = 2
+_LIMITS = Limits(memory_mb=4000, seconds=120)
+"""The largest terrain takes three quarters of this."""
 _MODES = ("F", "I", "I;16", "I;16S", "I;16B", "I;16L", "L")
 
 
@@ -109,6 +112,11 @@ class Terrain:
 
 def read_terrain(path: Path, crs: str | None) -> Terrain:
     """The heights of a file; InputError where it cannot be used for lots in `crs`."""
+    return limited(_terrain, (path, crs), path, "Cut out what is needed.", _LIMITS)
+
+
+def _terrain(asked: tuple[Path, str | None]) -> Terrain:
+    path, crs = asked
     try:
         require_file(path, MAX_BYTES)
         with warnings.catch_warnings():

@@ -30,6 +30,7 @@ from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.place.material import Colour, Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 MAX_TEXTURES = 256
 MAX_PIXELS = 2**26
@@ -118,7 +119,7 @@ def find_textures(
         elif pattern_of(name) is not None:
             found[name] = name
         elif (path := places.find(name)) is not None:
-            found[name] = os.path.realpath(path)
+            found[name] = str(real_path(path))
         if len(found) > MAX_TEXTURES:
             raise InputError(rules, f"names more than {MAX_TEXTURES} pictures", "Use fewer.")
     return found

@@ -27,6 +27,7 @@ from veduta.photos.world.georeferencing import digests_of, read_references, requ
 from veduta.photos.writing import write_failure, write_results
 from veduta.run.digests import result_key
 from veduta.run.errors import NotFoundError
+from veduta.run.names import given_name, real_path
 from veduta.run.outputs import OutFolder, Standing, open_out
 from veduta.run.pool import Task
 from veduta.run.progress import Progress, StepProgress
@@ -75,7 +76,7 @@ def run_photos(
     with open_out(out, COMMAND, key, force=force) as opened:
         result = PhotosResult(out, up_to_date=opened.standing is Standing.UP_TO_DATE)
         if not result.up_to_date:
-            task = Task(call.folder.resolve().name, None)
+            task = Task(real_path(call.folder).name, None)
             with progress.over(1):
                 progress.started(task)
                 _make(call, options, opened, key, progress.step, jobs)
@@ -102,7 +103,7 @@ def _make(
     steps: list[StepRecord] = []
     stages = Stages(opened.path, call, options)
     stages.open()
-    told = Told(str(call.folder), options, steps)
+    told = Told(given_name(call.folder), options, steps)
     with timed_step(steps, "video") if call.video else nullcontext():
         call = with_frames(call, stages, progress)
     call = with_panoramas(call, stages, progress)

@@ -9,6 +9,7 @@ from typing import NamedTuple, Protocol, TypeVar
 
 from veduta.place.manifest import PlaceCamera, Walk, WalkKey, WalkTransition
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 Item = TypeVar("Item", PlaceCamera, WalkKey, WalkTransition, Walk)
 _NAMES = ("picture", "document", "forth", "back")
@@ -103,14 +104,14 @@ def copies(sources: Mapping[str, Source], target: Path) -> list[tuple[Path, Path
     """
     missing = []
     planned: list[tuple[Path, Path]] = []
-    home = target.resolve()
+    home = real_path(target)
     for name, (folder, own) in sorted(sources.items()):
-        path = (folder / own).resolve()
-        if not path.is_relative_to(folder.resolve()):
+        path = real_path(folder / own)
+        if not path.is_relative_to(real_path(folder)):
             fault = "is a link to a file outside of the place's folder"
             raise InputError(folder / own, fault, "Put the file itself there.")
         if path.is_file():
-            if path != (target / name).resolve():
+            if path != real_path(target / name):
                 planned.append((path, target / name))
         elif not (target / name).is_file():
             missing.append(own)

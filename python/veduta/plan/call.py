@@ -14,6 +14,7 @@ from veduta.plan.load import DOCUMENT, MAX_BYTES
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.names import real_path
 
 Kind = Literal["drawings", "document"]
 _OTHER_JSON = {
@@ -42,7 +43,7 @@ class Call:
 
     def is_in_place(self, out: Path) -> bool:
         """Whether the document is the one of OUT itself."""
-        return self.kind == "document" and self.paths[0].resolve() == (out / DOCUMENT).resolve()
+        return self.kind == "document" and real_path(self.paths[0]) == real_path(out / DOCUMENT)
 
 
 def plan_call(paths: Sequence[Path]) -> Call:

@@ -192,7 +192,8 @@ def open_out(
     made = not path.exists()
     try:
         _refuse_foreign(path, force)
-        (path / PRIVATE).mkdir(parents=True, exist_ok=True)
+        # Of a link to nothing, what it names is made.
+        Path(os.path.realpath(path), PRIVATE).mkdir(parents=True, exist_ok=True)
         lock = (path / PRIVATE / "lock").open("a+")
     except OSError as error:
         raise InputError(
@@ -249,7 +250,7 @@ def _remove_bare(out: OutFolder, *, made: bool) -> None:
     own = {private / "lock", private / RECORD, private / JOURNAL}
     if any(file not in own for file in out.path.rglob("*") if not file.is_dir()):
         return
-    shutil.rmtree(out.path, ignore_errors=True)
+    shutil.rmtree(os.path.realpath(out.path), ignore_errors=True)
 
 
 def _refuse_foreign(path: Path, force: bool) -> None:

@@ -9,6 +9,7 @@ from typing import Literal
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
 
+from veduta.run.names import given_names
 from veduta.run.report import Count, Report
 
 
@@ -85,7 +86,8 @@ def render(report: Report, page: Page) -> bytes:
         lstrip_blocks=True,
     )
     environment.filters["figure"] = _figure
-    return environment.get_template("report.html.j2").render(report=report, page=page).encode()
+    text = environment.get_template("report.html.j2").render(report=report, page=page)
+    return given_names(text).encode()
 
 
 def _figure(value: object) -> str:

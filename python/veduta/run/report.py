@@ -12,6 +12,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 import veduta
+from veduta.run.names import given_names
 
 Count = float | int | str
 FailureKind = Literal["input", "not-found", "output", "crash", "bug"]
@@ -68,7 +69,7 @@ class Report(_Record):
 
     def to_json(self) -> bytes:
         """The report as UTF-8 JSON, ending in a newline."""
-        return (self.model_dump_json(by_alias=True, indent=2) + "\n").encode()
+        return (given_names(self.model_dump_json(by_alias=True, indent=2)) + "\n").encode()
 
 
 def versions() -> dict[str, str]:

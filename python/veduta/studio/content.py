@@ -6,6 +6,7 @@ import shlex
 from pathlib import Path
 
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 STATIC = Path(__file__).parent / "static"
 MANIFEST = "place.json"
@@ -38,7 +39,7 @@ def place_folder(out: Path, verb: str = "view") -> Path:
         )
     if not (out / MANIFEST).is_file():
         raise InputError(out / MANIFEST, "the folder holds no place", _remedy(out, verb))
-    return out.resolve()
+    return real_path(out)
 
 
 def _remedy(out: Path, verb: str) -> str:
@@ -58,5 +59,5 @@ def _places_near(out: Path) -> list[Path]:
         for path in sorted(out.glob(f"{depth}/{MANIFEST}"))
         if not any(part.startswith(".") for part in path.relative_to(out).parts)
     ]
-    above = out.parent if out.name else out.resolve().parent
+    above = out.parent if out.name else real_path(out).parent
     return found or ([above] if (above / MANIFEST).is_file() else [])

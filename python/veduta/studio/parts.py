@@ -8,6 +8,7 @@ from veduta.formats.place_json import read_place
 from veduta.formats.tiles import contents
 from veduta.place.files import drawn_files, files_beside
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 from veduta.studio.content import MANIFEST
 
 
@@ -59,7 +60,7 @@ def _inside(folder: Path, name: str) -> Path:
             "is hidden (its name begins with a dot), and what is hidden is not published",
             "Give it another name, and write that into place.json.",
         )
-    path = (folder / name).resolve()
+    path = real_path(folder / name)
     if not path.is_relative_to(folder):
         raise InputError(
             folder / name,

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import fast_simplification
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 SAMPLES = 20_000
 NEAREST = 8
@@ -82,6 +81,8 @@ def _error(
     given: NDArray[np.float64], positions: NDArray[np.float64], faces: NDArray[np.uint32]
 ) -> float:
     """Distance of vertices, evenly picked, from the nearest of the triangles with near middles."""
+    from scipy.spatial import cKDTree  # here, as few calls need it
+
     picked = given[:: max(1, len(given) // SAMPLES)]
     corners = positions[faces]
     near = min(NEAREST, len(faces))

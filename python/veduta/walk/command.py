@@ -13,6 +13,7 @@ from veduta.place.manifest import WalkTransition
 from veduta.place.place import Cloud, Place
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.names import real_path
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
@@ -88,7 +89,7 @@ def run_walk(
     """Make the walk of a folder into OUT."""
     record, notes = read_record(folder, options, sources)
     inputs = [file_digest(path) for path in record.files]
-    call = VerbCall("walk", VERSION, folder.resolve().name, options, [*inputs])
+    call = VerbCall("walk", VERSION, real_path(folder).name, options, [*inputs])
 
     def make(work: Work) -> None:
         for note in notes:

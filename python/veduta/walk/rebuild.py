@@ -8,6 +8,7 @@ from veduta.place.manifest import Walk, WalkKey, WalkTransition
 from veduta.place.place import Place
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 from veduta.run.options import Options
 from veduta.run.page import Table
 from veduta.run.progress import Progress
@@ -30,13 +31,13 @@ def run_rebuild(
     InputError where the document names what is not there.
     """
     said = read_document(document)
-    folder = document.resolve().parent
+    folder = real_path(document).parent
     place = Place.load(folder)
     if not place.walks:
         raise InputError(folder / PLACE, "holds no walk", "Make it again with `veduta walk`.")
     before = place.walks[0]
     walk = rebuilt(document, said, before)
-    in_place = out.resolve() == folder
+    in_place = real_path(out) == folder
     inputs = [file_digest(document)]
     if not in_place:
         inputs.append(file_digest(folder / PLACE))

@@ -14,6 +14,7 @@ from veduta.cameras.files import COPY_AGAIN, picture_size, read_json
 from veduta.cameras.pictures import LONGEST_NAME, Pictures, near, with_pictures
 from veduta.cameras.projection import nearest_turn
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 Floats = NDArray[np.float64]
 DAMAGE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError)
@@ -64,8 +65,8 @@ def _root(found: Path, said: object) -> list[Path]:
     parts = said.encode("utf-8", "replace").split(b"/")
     if max(map(len, parts)) > LONGEST_NAME or len(parts) > _DEEPEST or Path(said).is_absolute():
         return []
-    folder = found.parent.resolve()
-    root = (folder / said).resolve()
+    folder = real_path(found.parent)
+    root = real_path(folder / said)
     return [root] if root.is_relative_to(folder) else []
 
 

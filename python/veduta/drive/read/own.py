@@ -24,6 +24,7 @@ from veduta.drive.read.spool import SpooledScans
 from veduta.drive.read.surface_model import read_heights
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 LOG = "drive.toml"
 _MOST_BYTES = 1 << 20
@@ -45,7 +46,7 @@ def files_elsewhere(folder: Path) -> list[Path]:
     """The files that its `drive.toml` names and that do not lie in it: a bag, a surface model."""
     log = read_toml(folder / LOG)
     named = [folder / one.file for one in (log.bag, log.surface) if one is not None]
-    outside = [one for one in named if not one.resolve().is_relative_to(folder.resolve())]
+    outside = [one for one in named if not real_path(one).is_relative_to(real_path(folder))]
     return sorted(
         path
         for one in outside

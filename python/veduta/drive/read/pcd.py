@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -109,7 +111,10 @@ def _count(path: Path, fields: dict[str, list[str]]) -> int:
 
 def _text(path: Path, body: bytes, columns: list[_Column], count: int) -> NDArray[np.float64]:
     try:
-        rows = np.array([line.split() for line in body.decode("ascii").splitlines()], dtype=float)
+        body.decode("ascii")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # that there is no line at all
+            rows = np.loadtxt(io.BytesIO(body), comments=None, ndmin=2)
     except (UnicodeDecodeError, ValueError) as error:
         raise InputError(path, "has a line that is not numbers", "Write it again.") from error
     first, width = {}, 0

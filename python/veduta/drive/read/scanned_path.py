@@ -24,6 +24,7 @@ from veduta.drive.read.spool import SpooledScans
 from veduta.drive.read.surface_model import SurfaceModel, read_surface_model
 from veduta.drive.read.tables import read_table, time_column
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.names import real_path
 
 Floats = NDArray[np.float64]
 _SLOPE_M = 10.0
@@ -89,7 +90,7 @@ def find_path(
             times, _matrices(poses, flat, flat), log.origin, log.crs,
             corrected, how, tuple(notes),
         )  # fmt: skip
-    model_path = (folder / log.surface.file).resolve()
+    model_path = real_path(folder / log.surface.file)
     model = read_surface_model(model_path, float(scanner.vehicle_from_scanner[11]))
     crs = _crs(log, model, folder / log.surface.file)
     start, reach = _start(folder, source, log, log.surface, model, crs, float(times[0]))

@@ -12,6 +12,7 @@ from veduta.drive.read.poses import poses_at
 from veduta.drive.read.tables import read_table, time_column
 from veduta.drive.record import Shot
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 _LONGEST_NAME, _LONGEST_PATH = 255, 1024
 
@@ -53,8 +54,8 @@ def file_beside(table: Path, name: str, what: str) -> Path:
     """A file that a table names, in the table's folder. InputError where it would be elsewhere."""
     if not _is_name(name):
         raise InputError(table, "has a name that no file has", f"Give the {what}s' names.")
-    file = (table.parent / name).resolve()
-    if not file.is_relative_to(table.parent.resolve()):
+    file = real_path(table.parent / name)
+    if not file.is_relative_to(real_path(table.parent)):
         fault = f"names an {what} outside of the folder ({name})"
         raise InputError(table, fault, f"Put the {what}s beside the table.")
     return file

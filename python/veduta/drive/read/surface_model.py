@@ -90,6 +90,7 @@ class SurfaceModel:
 
 LIMITS = Limits(memory_mb=4000, seconds=120)
 """The largest one that is read takes a third of this."""
+_CUT = "Cut it to where the drive went."
 
 
 def read_surface_model(
@@ -100,7 +101,7 @@ def read_surface_model(
     One band of floats or 16-bit numbers is heights; three or four bands of bytes are a photo.
     """
     chosen = parameters or SurfaceParameters()
-    bands, low, cell_m, crs = limited(_read, path, path, "Cut it to where the drive went.", LIMITS)
+    bands, low, cell_m, crs = limited(_read, path, path, _CUT, LIMITS)
     if len(bands) == 1:
         return _of_heights(path, bands[0], low, cell_m, crs, scanner_m, chosen)
     edge = cv2.Canny(
@@ -114,7 +115,7 @@ def read_surface_model(
 
 def read_heights(path: Path, origin_m: tuple[float, float, float]) -> HeightGrid | None:
     """The surface itself in a frame about an origin; None of a photo. InputError as above."""
-    bands, low, cell_m, _ = _read(path)
+    bands, low, cell_m, _ = limited(_read, path, path, _CUT, LIMITS)
     if len(bands) != 1:
         return None
     heights = (bands[0] - origin_m[2]).astype(np.float32)
@@ -130,7 +131,7 @@ def _read(path: Path) -> tuple[NDArray[np.float32], tuple[float, float], float, 
         with rasterio.open(path, driver="GTiff") as file:
             if file.width * file.height > _MOST_CELLS:
                 fault = f"has {file.width} x {file.height} cells, more than {_MOST_CELLS:,}"
-                raise InputError(path, fault, "Cut it to where the drive went.")
+                raise InputError(path, fault, _CUT)
             if file.count not in (1, 3, 4):
                 fault = f"has {file.count} bands"
                 raise InputError(path, fault, "Give one band of heights, or a photo of three.")

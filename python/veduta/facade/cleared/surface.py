@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
@@ -14,9 +13,7 @@ from veduta.facade.cleared.light import even_light
 from veduta.facade.cleared.repeats import own_repeats
 from veduta.facade.document import FacadeDocument
 from veduta.facade.photo_masks import Mask, PixelBox, element_mask, pixels_of
-
-if TYPE_CHECKING:
-    from veduta.surfaces import Repeated
+from veduta.surfaces import Repeated, fill_by_repeats
 
 Pixels = NDArray[np.uint8]
 _ROOF, _UPPER, _GROUND = range(3)
@@ -77,8 +74,6 @@ def clear_surface(
 
 def fill_front(document: FacadeDocument, crop: Pixels, box: PixelBox, holes: Mask) -> Repeated:
     """Fill the holes (h, w) of a crop by what the windows of the document say of repeats."""
-    from veduta.surfaces import fill_by_repeats  # brings scipy, which not all calls need
-
     offsets, storey = _repeats(document, box)
     return fill_by_repeats(crop, holes, offsets, storey, _zones(document, box)[0])
 

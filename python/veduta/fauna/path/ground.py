@@ -20,6 +20,7 @@ from veduta.place.place import Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import Limits, limited
 
 LEVEL = "level-ground"
 AROUND_M = 12.0
@@ -28,6 +29,9 @@ GRIDS = (".tif", ".tiff")
 _MOST_BYTES = 4_000_000_000
 _MOST_READ = 100_000_000
 """Cells of a file; what has more than a million is planned on larger ones."""
+_REMEDY = "Give a GeoTIFF of one band, heights in metres, in a CRS in metres."
+_LIMITS = Limits(memory_mb=5000, seconds=120)
+"""The largest one that is read takes two thirds of this."""
 _METRES = ("m", "metre", "metres", "meter", "meters")
 _LOWEST_M, _HIGHEST_M = -500.0, 9000.0
 """Of dry ground on Earth, with some room."""
@@ -102,7 +106,7 @@ def local_points(points_m: Floats, place: Place, terrain: Terrain) -> Floats:
 
 
 def _of_heights(path: Path) -> tuple[Place, Terrain]:
-    heights, low, cell_m, crs = _read(path)
+    heights, low, cell_m, crs = limited(_read, path, path, _REMEDY, _LIMITS)
     by = max(1, int(np.ceil(np.sqrt(heights.size / MOST_CELLS))))
     heights = _coarser(heights, by)
     known = np.isfinite(heights)
@@ -123,19 +127,18 @@ def _read(path: Path) -> tuple[Floats, tuple[float, float], float, str | None]:
     """Heights (rows from the south, columns), the lower left corner, the side of a cell, the
     CRS.
     """
-    remedy = "Give a GeoTIFF of one band, heights in metres, in a CRS in metres."
     try:
         require_file(path, _MOST_BYTES)
         with rasterio.open(path, driver="GTiff") as file:
             place, size = file.transform, file.width * file.height
             if size > _MOST_READ or file.count != 1:
                 fault = f"has {size:,} cells and {file.count} bands"
-                raise InputError(path, fault, f"{remedy} At most {_MOST_READ:,} cells.")
+                raise InputError(path, fault, f"{_REMEDY} At most {_MOST_READ:,} cells.")
             system = file.crs
             unit = _unit(file)
             data = file.read(1, masked=True)
     except FileNotFoundError as error:
-        raise InputError(path, "there is no such file", remedy) from error
+        raise InputError(path, "there is no such file", _REMEDY) from error
     except (RasterioError, RasterioIOError) as error:
         raise InputError(path, "is no GeoTIFF that can be read", "Copy it again.") from error
     require_grid(path, place, system)

@@ -8,6 +8,7 @@ from veduta.imaging.heic import HEIC_SUFFIXES
 from veduta.imaging.read import SUFFIXES
 from veduta.photos.intake.given import Given
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 MOST_NAMED = 8
 POSITIONS = "geo.txt"
@@ -48,7 +49,7 @@ def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...
     except OSError as error:
         fault = f"cannot be read ({error.strerror})"
         raise InputError(folder, fault, "Check its permissions.") from error
-    named = {path.resolve() for path in (given.video, given.from_colmap) if path is not None}
+    named = {real_path(path) for path in (given.video, given.from_colmap) if path is not None}
     seen = [path for path in paths if not path.name.startswith(".")]
     unread = tuple((path.name, why) for path in seen if (why := why_unread(path)))
     known = {name for name, _ in unread}
@@ -57,7 +58,7 @@ def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...
         for path in seen
         if path.name not in known
         and path.suffix.lower() not in photo_suffixes()
-        and path.resolve() not in named
+        and real_path(path) not in named
     ]
     films = [path.name for path in others if path.suffix.lower() in _FILMS]
     notes = [f"{name}: is a film; give it with --video to use its frames" for name in films]

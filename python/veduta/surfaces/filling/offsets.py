@@ -10,7 +10,6 @@ from __future__ import annotations
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from veduta.surfaces.filling.options import FillParameters
 
@@ -28,6 +27,8 @@ def repeats(
     The best first: those that repeat better than all around them, then others. At least one, where
     any pixel is known and not all are.
     """
+    from scipy import fft  # here, as few calls need it
+
     height, width = known.shape
     shape = (fft.next_fast_len(2 * height), fft.next_fast_len(2 * width))
     mask = known.astype(np.float64)
@@ -65,6 +66,8 @@ def _correlation(
     one: NDArray[np.complex128], other: NDArray[np.complex128], shape: tuple[int, int]
 ) -> NDArray[np.float64]:
     """The sum over x of one(x) other(x + s), for all s."""
+    from scipy import fft
+
     return np.asarray(fft.irfft2(np.conj(one) * other, shape))
 
 

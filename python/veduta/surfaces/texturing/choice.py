@@ -11,8 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from veduta.surfaces.texturing.options import TextureParameters
 from veduta.surfaces.texturing.sight import NO_VIEW, Sights
@@ -56,6 +54,8 @@ def _spread(
     parameters: TextureParameters,
 ) -> Labels:
     """The view that is worth most to a triangle and those around it, of those that see it."""
+    from scipy.sparse import csr_array  # here, as few calls need it
+
     rows, columns = np.nonzero(views != NO_VIEW)
     count = len(views)
     shape = (count, int(views.max(initial=0)) + 1)
@@ -104,6 +104,9 @@ def _improved(
 
 def patches(labels: Labels, beside: NDArray[np.int32]) -> tuple[int, Labels]:
     """The number of connected pieces of one view, and (m,) the piece of each triangle."""
+    from scipy.sparse import csr_array  # here, as few calls need it
+    from scipy.sparse.csgraph import connected_components
+
     rows, side = np.nonzero(beside >= 0)
     other = beside[rows, side]
     same = labels[rows] == labels[other]

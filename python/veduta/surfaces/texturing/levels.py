@@ -10,8 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array, diags_array
-from scipy.sparse.linalg import cg
 
 from veduta.surfaces.texturing.options import TextureParameters
 
@@ -40,6 +38,9 @@ def nodes_of(triangles: NDArray[np.int64], chart_of: NDArray[np.int32]) -> Nodes
 
 def corrections(nodes: Nodes, colours: Floats, parameters: TextureParameters) -> Floats:
     """(n, 3) to add to the colours of each node. colours: (n, 3) of the node in its own photo."""
+    from scipy.sparse import csr_array, diags_array  # here, as few calls need it
+    from scipy.sparse.linalg import cg
+
     count = len(nodes.vertex)
     if count == 0:
         return np.zeros((0, 3))
