@@ -37,7 +37,7 @@ from veduta.place.place import ModelFile, Place
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
-VERSION = "17"
+VERSION = "18"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 JPEG_QUALITY = 95
 
@@ -141,7 +141,8 @@ def write_building(
         if building.style is not None:
             building.style.write(folder)
         Place().add(building.part, file=ModelFile("model.glb")).save(folder)
-        write_cityjson(building.part, folder / "model.city.json")
+        pictures = {texture: name for name, texture in building.model.textures.items()}
+        write_cityjson(building.part, folder / "model.city.json", pictures)
         step.counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*"))
 
 

@@ -43,7 +43,7 @@ FILES = (
     ("lot.geojson", "the lot that the rules stand on"),
     ("textures/", "the pictures that the rules name"),
     ("model.glb", "the building as glTF 2.0"),
-    ("model.city.json", "the building as CityJSON 2.0, LoD3"),
+    ("model.city.json", "the building as CityJSON 2.0, LoD3, with the pictures of `textures/`"),
 )
 FOUND_NOTE = (
     "Elements, regions and floor lines. The number 17 stands on elements[17] of facade.json;"

@@ -3,20 +3,26 @@
 https://www.cityjson.org/specs/2.0.1/ - sections 2.3 (Building), 3 (geometry), 3.3 (semantics).
 The body is a Solid whose windows and doors name the wall that they open as parent; balconies,
 chimneys and lids are BuildingInstallation objects, each a Solid of its own. Vertices are
-integers of a tenth of a millimetre, shared by all that touch. Axes: z up, as in the part.
+integers of a tenth of a millimetre, shared by all that touch. Axes: z up, as in the part. Where the
+textures lie in files, surfaces name them (section 6, Appearance): texture vertices count from the
+lower left corner.
 """
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.place.flatten import flattened
+from veduta.place.material import Texture
 from veduta.place.part import NO_PARENT, Part
 from veduta.place.semantics import CITYJSON_SURFACE, OPENINGS
 from veduta.run.atomic import write_bytes
@@ -25,17 +31,23 @@ from veduta.run.atomic import write_bytes
 GRID_M = 1e-4
 # A face whose normal leans at least this much up or down is a floor or a ceiling.
 LEVEL = 0.7
+THEME = "veduta"
+NO_PICTURES: Mapping[Texture, str] = MappingProxyType({})
 
 
-def write_cityjson(part: Part, path: Path) -> None:
-    """Write the part as one building; the file appears whole or not at all."""
-    text = json.dumps(cityjson(part), separators=(",", ":"), allow_nan=False)
+def write_cityjson(part: Part, path: Path, pictures: Mapping[Texture, str] = NO_PICTURES) -> None:
+    """Write the part as one building; the file appears whole or not at all.
+
+    pictures: the files of its textures, by their paths from the file's folder.
+    """
+    text = json.dumps(cityjson(part, pictures), separators=(",", ":"), allow_nan=False)
     write_bytes(path, text.encode())
 
 
-def cityjson(part: Part) -> dict[str, Any]:
+def cityjson(part: Part, pictures: Mapping[Texture, str] = NO_PICTURES) -> dict[str, Any]:
     """The CityJSON object of the part; what stands in it many times is written each time."""
     part = flattened(part)
+    look = _Appearance(part, pictures)
     low = np.floor(part.positions_m.min(axis=0).astype(np.float64))
     steps = np.round((part.positions_m.astype(np.float64) - low) / GRID_M).astype(np.int64)
     vertices, vertex_of = np.unique(steps, axis=0, return_inverse=True)
@@ -43,7 +55,7 @@ def cityjson(part: Part) -> dict[str, Any]:
     building: dict[str, Any] = {
         "type": "Building",
         "attributes": dict(part.attributes),
-        "geometry": [_solid(part, 0, vertex_of, on_building=True)],
+        "geometry": [_solid(part, 0, vertex_of, look, on_building=True)],
     }
     objects: dict[str, Any] = {part.id: building}
     for shell in range(1, int(part.features.shell.max()) + 1):
@@ -56,7 +68,7 @@ def cityjson(part: Part) -> dict[str, Any]:
                 "class": part.features.semantic(int(rows[0])).value,
                 "name": part.features.name[int(rows[0])],
             },
-            "geometry": [_solid(part, shell, vertex_of, on_building=False)],
+            "geometry": [_solid(part, shell, vertex_of, look, on_building=False)],
         }
     if len(objects) > 1:
         building["children"] = [name for name in objects if name != part.id]
@@ -67,7 +79,45 @@ def cityjson(part: Part) -> dict[str, Any]:
         "transform": {"scale": [GRID_M] * 3, "translate": low.tolist()},
         "CityObjects": objects,
         "vertices": vertices.tolist(),
+        **look.told(),
     }
+
+
+@dataclass
+class _Appearance:
+    """The pictures that surfaces of a part name, and the texture vertices, as they come."""
+
+    part: Part
+    pictures: Mapping[Texture, str]
+    images: dict[str, int] = field(default_factory=dict)
+    uv: dict[tuple[float, float], int] = field(default_factory=dict)
+
+    def rings(self, polygon: int) -> list[list[int | None]]:
+        """What of which picture each ring of a polygon shows."""
+        part = self.part
+        texture = part.materials[int(part.polygon_material[polygon])].texture
+        name = None if texture is None else self.pictures.get(texture)
+        first, last = part.polygon_offsets[polygon : polygon + 2]
+        if name is None:
+            return [[None] for _ in range(first, last)]
+        image, known = self.images.setdefault(name, len(self.images)), self.uv
+        found: list[list[int | None]] = []
+        for ring in range(first, last):
+            uv = part.uv[part.ring_offsets[ring] : part.ring_offsets[ring + 1]].astype(np.float64)
+            corners = np.round(np.column_stack([uv[:, 0], 1.0 - uv[:, 1]]), 6).tolist()
+            found.append([image, *(known.setdefault((u, v), len(known)) for u, v in corners)])
+        return found
+
+    def told(self) -> dict[str, Any]:
+        """The member of the file; none where nothing has a picture."""
+        if not self.images:
+            return {}
+        images = [
+            {"type": "PNG" if name.endswith(".png") else "JPG", "image": name, "wrapMode": "wrap"}
+            for name in self.images
+        ]
+        made = {"textures": images, "vertices-texture": [list(corner) for corner in self.uv]}
+        return {"appearance": {"default-theme-texture": THEME, **made}}
 
 
 def _extent(part: Part) -> list[float]:
@@ -76,13 +126,14 @@ def _extent(part: Part) -> list[float]:
 
 
 def _solid(
-    part: Part, shell: int, vertex_of: NDArray[np.int64], *, on_building: bool
+    part: Part, shell: int, vertex_of: NDArray[np.int64], look: _Appearance, *, on_building: bool
 ) -> dict[str, Any]:
     """One closed shell with a semantic surface per feature (and per direction beside the body)."""
     surfaces: list[dict[str, Any]] = []
     number_of: dict[tuple[int, str], int] = {}
     boundaries: list[list[list[int]]] = []
     values: list[int] = []
+    textures: list[list[list[int | None]]] = []
     for polygon in part.polygons_of_shell(shell).tolist():
         feature = int(part.polygon_feature[polygon])
         kind = (
@@ -96,14 +147,18 @@ def _solid(
             surfaces.append(surface_entry(part, feature, kind))
         values.append(number_of[key])
         boundaries.append(_rings(part, polygon, vertex_of))
+        textures.append(look.rings(polygon))
     if on_building:
         _link_openings(part, surfaces, {feature: row for (feature, _), row in number_of.items()})
-    return {
+    shape: dict[str, Any] = {
         "type": "Solid",
         "lod": "3",
         "boundaries": [boundaries],
         "semantics": {"surfaces": surfaces, "values": [values]},
     }
+    if any(ring != [None] for rings in textures for ring in rings):
+        shape["texture"] = {THEME: {"values": [textures]}}
+    return shape
 
 
 def _by_direction(normal_z: float) -> str:

@@ -2,8 +2,8 @@
 
 Some libraries take gigabytes, or hours, for a file of two kilobytes, and end the whole process when
 there is no more memory. Here that ends a process that does nothing else, and the file is named.
-Where a header says how much there is, that is checked before: pictures and scans, whose headers
-tell all, need no other process.
+Where a header says how much there is, that is checked before: pictures, whose headers tell all,
+need no other process (`docs/files.md` says how each kind is read).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import importlib
 import os
 import resource
 import threading
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -134,7 +135,9 @@ def within(request: _Request) -> Any:
     _limit(resource.RLIMIT_DATA, _used_bytes() + limits.memory_mb * 1_000_000)
     _limit(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime) + limits.seconds)
     try:
-        return function(request.argument)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # libraries complain of files; that is the reader's
+            return function(request.argument)
     finally:
         for kind in (resource.RLIMIT_DATA, resource.RLIMIT_CPU):
             _limit(kind, resource.getrlimit(kind)[1])

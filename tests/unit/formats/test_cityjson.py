@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from itertools import pairwise
+from itertools import chain, pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from sample_document import sample_document, sample_photo
 
-from veduta.facade.model import build_part
+from veduta.facade.model import WALL_TEXTURE, build_model, build_part
 from veduta.formats.cityjson import write_cityjson
 from veduta.place.part import Part
 
@@ -97,3 +98,41 @@ def test_ground_lies_on_the_ground(city: dict[str, Any]) -> None:
         for vertex in boundary[0]
     }
     assert heights == {0}
+
+
+def test_surfaces_show_what_lies_behind_them_in_the_picture(tmp_path: Path) -> None:
+    document = sample_document()
+    model = build_model(document, sample_photo(document), "sample")
+    pictures = {texture: name for name, texture in model.textures.items()}
+    write_cityjson(model.part, tmp_path / "model.city.json", pictures)
+    city = json.loads((tmp_path / "model.city.json").read_text())
+    look = city["appearance"]
+    named = [image["image"] for image in look["textures"]]
+    assert set(named) <= set(model.textures)
+    points = (
+        np.array(city["vertices"]) * city["transform"]["scale"] + city["transform"]["translate"]
+    )
+    corners = np.array(look["vertices-texture"])
+    assert corners.min() >= 0.0
+    assert corners.max() <= 1.0
+    geometry = city["CityObjects"]["sample"]["geometry"][0]
+    rings = zip(
+        chain.from_iterable(geometry["boundaries"][0]),
+        chain.from_iterable(geometry["texture"]["veduta"]["values"][0]),
+        strict=True,
+    )
+    places, seen = [], []
+    for ring, shown in rings:
+        if shown == [None] or named[shown[0]] != WALL_TEXTURE:
+            continue
+        assert len(shown) == len(ring) + 1
+        if np.ptp(points[ring, 1]) < 1e-6:  # parallel to the front
+            places.append(points[ring][:, [0, 2]])
+            seen.append(corners[shown[1:]])
+    x, z = np.concatenate(places).T
+    u, v = np.concatenate(seen).T
+    # The picture is upright on the wall: to the right and up in both.
+    for along, across in ((x, u), (z, v)):
+        slope, start = np.polyfit(along, across, 1)
+        assert slope > 0.0
+        np.testing.assert_allclose(slope * along + start, across, atol=2e-3)

@@ -1,0 +1,126 @@
+"""What each reader does with files that have faults: results, refusals, tracebacks, memory.
+
+    .venv/bin/python scripts/mutations.py [--cases 5000] [--only NAME]... [--keep FOLDER]
+
+Each kind of file (`tests/unit/formats/faulty_inputs.py`) is read in a process of its own, so that
+its memory is its own; that of the process with limits, where one reads, is told beside it. A case
+is made from its number alone. With --keep what is done lies in FOLDER, and another call goes on.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+import resource
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+sys.path[:0] = [str(ROOT / name) for name in ("benchmarks", "tests/unit", "tests/unit/formats")]
+MOST_MB = 500
+
+
+def main() -> int:
+    """Measure and keep the table; 1 where a reader failed."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--cases", type=int, default=5000)
+    parser.add_argument("--only", action="append", default=[])
+    parser.add_argument("--keep", type=Path)
+    asked = parser.parse_args()
+    from faulty_inputs import CLASSES
+
+    kept = asked.keep or Path(tempfile.mkdtemp())
+    kept.mkdir(parents=True, exist_ok=True)
+    for kind in asked.only or CLASSES:
+        path = kept / f"{kind}-{asked.cases}.json"
+        if not path.exists():
+            context = multiprocessing.get_context("spawn")
+            process = context.Process(target=measure, args=(kind, asked.cases, path))
+            process.start()
+            process.join()
+            if process.exitcode:
+                path.write_text(
+                    json.dumps({"kind": kind, "tracebacks": f"exit {process.exitcode}"})
+                )
+        print(path.read_text(), flush=True)
+    if asked.only:
+        return 0
+    rows = [json.loads((kept / f"{kind}-{asked.cases}.json").read_text()) for kind in CLASSES]
+    bad = [
+        row for row in rows if row["tracebacks"] or max(row["MB"], row["MB of limits"]) > MOST_MB
+    ]
+    notes = (
+        f"{asked.cases} files of each kind, with one to four faults: bits turned, bytes cut out,"
+        " said twice or drawn anew, brackets and quotes, numbers that are none.",
+        f"MB: by how much the process grew beyond reading the sound file; {MOST_MB} are the most."
+        " MB of limits: the same of the process with limits, where one reads.",
+    )
+    from record import record
+
+    record("mutations", rows, notes)
+    return 1 if bad else 0
+
+
+def measure(kind: str, cases: int, path: Path) -> None:
+    """Read so many files of a kind; the row of the table goes to `path`."""
+    from faulty_inputs import CLASSES, mutated
+
+    from veduta.run import limits
+    from veduta.run.errors import InputError, NotFoundError
+
+    write, read = CLASSES[kind]
+    with tempfile.TemporaryDirectory() as folder:
+        file = write(Path(folder))
+        sound = file.read_bytes()
+        read(file)
+        before, beside = _peak_mb(None), _reader_mb(limits)
+        most_beside = beside
+        fine = refused = failed = 0
+        told: list[str] = []
+        started = time.perf_counter()
+        for number in range(cases):
+            file.write_bytes(mutated(sound, number))
+            try:
+                read(file)
+                fine += 1
+            except (InputError, NotFoundError):
+                refused += 1
+            except Exception as error:  # noqa: BLE001  what is counted
+                failed += 1
+                told.append(f"{number}: {error!r}"[:200])
+            if number % 50 == 0:
+                most_beside = max(most_beside, _reader_mb(limits))
+        row = {
+            "kind": kind, "files": cases, "read": fine, "refused": refused, "tracebacks": failed,
+            "MB": round(_peak_mb(None) - before, 1),
+            "MB of limits": round(max(most_beside, _reader_mb(limits)) - beside, 1),
+            "ms a file": round(1000.0 * (time.perf_counter() - started) / cases, 2),
+        }  # fmt: skip
+    if told:
+        print("\n".join(told[:5]), file=sys.stderr)
+    path.write_text(json.dumps(row))
+
+
+def _peak_mb(process: int | None) -> float:
+    if process is None:
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    try:
+        for line in Path(f"/proc/{process}/status").read_text("ascii").splitlines():
+            if line.startswith("VmHWM:"):
+                return int(line.split()[1]) / 1024.0
+    except OSError:  # it has just ended
+        pass
+    return 0.0
+
+
+def _reader_mb(limits: object) -> float:
+    """The peak of the process that reads under limits; 0 where there is none."""
+    workers = getattr(limits, "_kept", {}).values()
+    return max((_peak_mb(one.process.pid) for one in workers), default=0.0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
