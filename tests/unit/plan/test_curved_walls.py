@@ -16,10 +16,10 @@ from shapely.geometry import LineString, Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
+from veduta.geometry.arcs import Arc, bulge_through
+from veduta.geometry.circle import fit_circle
 from veduta.plan.drawn import Drawn, DrawnWall
 from veduta.plan.reading import read_storey
-from veduta.plan.walls.arcs import Arc, bulge_through
-from veduta.plan.walls.circle import fit_circle
 from veduta.plan.walls.curved import curved_pieces
 from veduta.plan.walls.meetings import meetings
 from veduta.plan.walls.pieces import Piece

@@ -14,13 +14,14 @@ from sample_plan import INNER_M, OUTER_M, opening, sample_plan, sample_storey, w
 from shapely.geometry import LineString, Polygon, box
 from shapely.ops import unary_union
 
+from veduta.geometry.arcs import arc_points
 from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import Junction, Storey
 from veduta.plan.house import roof
 from veduta.plan.house.build import build_house
 from veduta.plan.house.frame import Sculptor
-from veduta.plan.house.lines import arc_points, footprint, wall_lines
+from veduta.plan.house.lines import footprint, wall_lines
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import SLOPE_DEG, add_roof
 from veduta.plan.house.space import space_of

@@ -1,6 +1,6 @@
 """Windows in curved walls: glass, frame and sills that follow the arc.
 
-They are bands along the wall's centre line, which is a polygonal line (`lines.ARC_STEP_RAD`).
+They are bands along the wall's centre line, a polygonal line (`geometry.arcs.ARC_STEP_RAD`).
 """
 
 from __future__ import annotations

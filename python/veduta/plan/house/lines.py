@@ -17,10 +17,9 @@ from shapely.geometry import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import substring, unary_union
 
-from veduta.plan.document import Point, Storey, Wall
+from veduta.geometry.arcs import arc_points
+from veduta.plan.document import Storey, Wall
 
-ARC_STEP_RAD = math.radians(6.0)
-"""A curved wall is a polygonal line with at most this angle between two of its pieces."""
 MITRE_LIMIT = 4.0
 """A mitred corner reaches at most this many half thicknesses beyond its junction."""
 
@@ -55,33 +54,6 @@ class WallLine:
     def at(self, along_m: float) -> NDArray[np.float64]:
         """(2,) the point at a distance along the wall."""
         return np.array(self.line.interpolate(along_m).coords[0])
-
-
-def arc_points(start: Point, end: Point, bulge: float) -> NDArray[np.float64]:
-    """(n, 2) points of a straight or curved line, both ends with it.
-
-    bulge: tan of a quarter of the arc's angle, as in DXF: positive turns left on the way, and so
-    bows to the right.
-    """
-    first, last = np.array(start, dtype=np.float64), np.array(end, dtype=np.float64)
-    if abs(bulge) < 1e-6:
-        return np.stack([first, last])
-    angle = 4.0 * math.atan(bulge)
-    chord = last - first
-    left = np.array([-chord[1], chord[0]])
-    centre = (first + last) / 2.0 + left * (1.0 - bulge**2) / (4.0 * bulge)
-    steps = max(2, math.ceil(abs(angle) / ARC_STEP_RAD))
-    turn = np.linspace(0.0, angle, steps + 1)
-    about = first - centre
-    points = np.stack(
-        [
-            centre[0] + np.cos(turn) * about[0] - np.sin(turn) * about[1],
-            centre[1] + np.sin(turn) * about[0] + np.cos(turn) * about[1],
-        ],
-        axis=1,
-    )
-    points[0], points[-1] = first, last
-    return points
 
 
 def wall_lines(storey: Storey) -> dict[str, WallLine]:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from veduta.geometry.arcs import Arc
 from veduta.plan.openings.gaps import CROSSING_RAD, FARTHEST, LEAST_PX, Gap
-from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.curved import same_circle
 from veduta.plan.walls.meetings import end_to_end
 from veduta.plan.walls.pieces import Piece

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.walls.arcs import Arc
+from veduta.geometry.arcs import Arc
 from veduta.plan.walls.pieces import FACET_RAD, Piece
 
 PARALLEL_RAD = np.radians(7.0)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
-from veduta.plan.walls.arcs import Arc
+from veduta.geometry.arcs import Arc
 
 MARGIN = 0.6
 """Beside each face, in half thicknesses (AV3D: half a thickness in all)."""

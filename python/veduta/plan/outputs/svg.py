@@ -8,9 +8,9 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.geometry.arcs import arc_points
 from veduta.plan.document import RoomUse, Storey
 from veduta.plan.drawing import LAYERS, Drawing, Label, Shape
-from veduta.plan.house.lines import arc_points
 from veduta.plan.outputs.colours import LAYER_COLOURS, USE_COLOURS
 
 GAP_M = 2.0

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.geometry.homography import Matrix, translation
+from veduta.geometry.vanishing import focal_from_orthogonal
 
 Seen = Literal["floor", "wall", "ceiling"]
 Size = tuple[float, float]
@@ -99,13 +100,8 @@ def likely_size(plane: Plane, room_m: float) -> Size:
 
 
 def _focal_of(centred: NDArray[np.float64], side_px: int) -> float:
-    """By the right angle of the tiles' sides, where their vanishing points tell; else the usual.
-
-    Hartley and Zisserman, 8.8: the images of orthogonal directions and a camera of square pixels.
-    """
-    right, down, _ = centred.T
-    both = float(right[2] * down[2])
-    square = -float(right[:2] @ down[:2]) / both if both else -1.0
-    focal = math.sqrt(square) / side_px if square > 0 else 0.0
+    """By the right angle of the tiles' sides, where their vanishing points tell; else the usual."""
+    found = focal_from_orthogonal(centred[:, 0], centred[:, 1], (0.0, 0.0))
+    focal = (found or 0.0) / side_px
     low, high = _FOCALS
     return side_px * (focal if low <= focal <= high else USUAL_FOCAL)

@@ -17,9 +17,9 @@ import shapely
 from numpy.typing import NDArray
 from shapely.geometry import LineString, Point, Polygon
 
+from veduta.geometry.arcs import Arc, bulge_through
 from veduta.plan.document import WallDrawing
 from veduta.plan.openings.lines import runs
-from veduta.plan.walls.arcs import Arc, bulge_through
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.bows import look
 from veduta.plan.walls.find import Found

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.walls.arcs import Arc
+from veduta.geometry.arcs import Arc
 from veduta.plan.walls.bows import (
     BESIDE_FACES,
     CAP_PX,

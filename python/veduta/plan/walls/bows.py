@@ -17,8 +17,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.geometry.arcs import Arc
 from veduta.plan.document import WallDrawing
-from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.curved import lies_in
 from veduta.plan.walls.find import Found

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.geometry.arcs import Arc, bulge_through
+from veduta.geometry.circle import Circle, fit_circle
 from veduta.plan.document import WallDrawing
-from veduta.plan.walls.arcs import Arc, bulge_through
-from veduta.plan.walls.circle import Circle, fit_circle
 from veduta.plan.walls.join import SAME_THICKNESS, solid_share
 from veduta.plan.walls.pieces import LEAST_ASPECT, MOST_TURN_PX, Piece, parted
 from veduta.plan.walls.tracks import Track

@@ -11,8 +11,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from veduta.geometry.arcs import bulge_through
 from veduta.plan.document import JunctionType
-from veduta.plan.walls.arcs import bulge_through
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.meetings import crossing, meetings, pairs_in_reach
 from veduta.plan.walls.pieces import FACET_RAD, Piece

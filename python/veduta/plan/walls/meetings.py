@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from shapely import STRtree, box
 from shapely.geometry import LineString, MultiPoint, Point
 
-from veduta.plan.walls.arcs import Arc
+from veduta.geometry.arcs import Arc
 from veduta.plan.walls.pieces import Piece
 
 MEET_RAD = np.radians(12)

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.geometry.arcs import Arc
 from veduta.plan.document import WallDrawing
-from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.tracks import Track
 
 LEAST_ASPECT = 0.6

@@ -1,7 +1,8 @@
-"""Arcs in pixels: places along and beside a line that is straight or curved.
+"""Arcs: places along and beside a line that is straight or curved, and lines that stand for it.
 
-Frame: x right, y down. An arc is told by its ends and its bulge, the tan of a quarter of its angle:
-0 is straight, positive bows to the right of who walks from start to end, as one sees the page.
+Frame of `Arc`: x right, y down (pixels); of `arc_points`: x right, y up (m). An arc is told by its
+ends and its bulge, the tan of a quarter of its angle: 0 is straight, positive bows to the right of
+who walks from start to end, as one sees the page.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from numpy.typing import NDArray
 Points = NDArray[np.float64]
 STRAIGHT = 1e-6
 """A smaller bulge is none."""
+ARC_STEP_RAD = math.radians(6.0)
+"""A curved line is drawn as a polygonal line with at most this angle between two of its pieces."""
 
 
 @dataclass(frozen=True)
@@ -138,3 +141,32 @@ def bulge_through(start: Points, middle: Points, end: Points) -> float:
     radius = math.hypot(half, lift)
     sagitta = lift + math.copysign(radius, across)
     return sagitta / half
+
+
+def arc_points(
+    start: tuple[float, float], end: tuple[float, float], bulge: float
+) -> NDArray[np.float64]:
+    """(n, 2) points of a straight or curved line, both ends with it.
+
+    bulge: tan of a quarter of the arc's angle, as in DXF: positive turns left on the way, and so
+    bows to the right.
+    """
+    first, last = np.array(start, dtype=np.float64), np.array(end, dtype=np.float64)
+    if abs(bulge) < 1e-6:
+        return np.stack([first, last])
+    angle = 4.0 * math.atan(bulge)
+    chord = last - first
+    left = np.array([-chord[1], chord[0]])
+    centre = (first + last) / 2.0 + left * (1.0 - bulge**2) / (4.0 * bulge)
+    steps = max(2, math.ceil(abs(angle) / ARC_STEP_RAD))
+    turn = np.linspace(0.0, angle, steps + 1)
+    about = first - centre
+    points = np.stack(
+        [
+            centre[0] + np.cos(turn) * about[0] - np.sin(turn) * about[1],
+            centre[1] + np.sin(turn) * about[0] + np.cos(turn) * about[1],
+        ],
+        axis=1,
+    )
+    points[0], points[-1] = first, last
+    return points

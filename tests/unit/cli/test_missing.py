@@ -1,0 +1,37 @@
+"""What is missing is told in a line; what is on says with which word it is off."""
+
+from __future__ import annotations
+
+import pytest
+
+from veduta.cli import main as cli
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["carve", "photos"], "error: -o OUT: is missing: folder for the results."),
+        (["dense"], "error: CAMERAS: is missing: a result of `veduta photos`"),
+        (["grammar", "derive", "haussmann"], "error: -o OUT: is missing"),
+        (["export", "--force"], "error: OUT: is missing: folder with a place.json"),
+    ],
+)
+def test_one_line_says_what_is_missing(
+    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(words) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(told)
+    assert said.count("\n") == 1
+    assert f"`veduta {' '.join(words[: 2 if words[0] == 'grammar' else 1])} --help`" in said
+
+
+@pytest.mark.parametrize(("verb", "option"), [("carve", "carve"), ("drive", "fill")])
+def test_what_is_on_says_how_it_is_off(
+    verb: str, option: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        cli.main([verb, "--help"])
+    told = " ".join(word for word in capsys.readouterr().out.split() if word != "│")
+    assert f"(on unless --no-{option})" in told
+    assert "default: True" not in told
