@@ -16,12 +16,12 @@ class KeptClips:
 
     def __init__(self, file: Path | None) -> None:
         self._file = file
-        self._rows: dict[str, Row] = {}
+        self._rows: dict[str, list[Row]] = {}
         if file is not None and file.exists():
             self._rows = json.loads(file.read_text())
 
-    def row(self, name: str, make: Callable[[], Row]) -> Row:
-        """The row of a clip, made where it is not there yet."""
+    def rows(self, name: str, make: Callable[[], list[Row]]) -> list[Row]:
+        """The rows of a clip, made where they are not there yet."""
         if name not in self._rows:
             self._rows[name] = make()
             if self._file is not None:

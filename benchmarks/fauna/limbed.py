@@ -46,20 +46,22 @@ def main() -> None:
     """Measure all of it and keep the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--clips", type=int, default=4, help="of each kind; every fourth is odd")
+    parser.add_argument("--lizards", type=int, help="of lizards, if other")
     parser.add_argument("--kept", type=Path, help="where clips that are done are kept")
     parser.add_argument("--no-keep", action="store_true")
     given = parser.parse_args()
     kept = KeptClips(given.kept)
     rows: list[Row] = []
     for kind, make in (("quadruped", film_quadruped), ("lizard", film_lizard)):
-        found = []
-        for seed in range(given.clips):
+        found: list[Row] = []
+        few = given.lizards if kind == "lizard" else None
+        for seed in range(given.clips if few is None else few):
             clip = partial(
                 make, FIRST + seed, frames=36, odd=seed % 4 == 3, cycle=18.0 + 0.9 * (seed % 8)
             )
-            found.append(kept.row(f"{kind} {seed}", partial(_measured, kind, clip)))
+            found += kept.rows(f"{kind} {seed}", partial(_measured, kind, clip))
         rows += summed(kind, found)
-    rows += cat_rows()
+    rows += kept.rows("cat", cat_rows)
     notes = [
         "Drawn clips: veduta.synthetic.animals, which shares no function with the fit; silhouettes"
         " are found in the footage against its background, grass and noise in it. Every fourth"
@@ -74,8 +76,8 @@ def main() -> None:
     keep_or_print("fauna-limbed", rows, notes, not given.no_keep)
 
 
-def _measured(kind: str, clip: Callable[[], Filmed]) -> Row:
-    return measured(kind, clip())
+def _measured(kind: str, clip: Callable[[], Filmed]) -> list[Row]:
+    return [measured(kind, clip())]
 
 
 def measured(kind: str, film: Filmed) -> Row:

@@ -10,13 +10,16 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parent))
 
+from kept_clips import KeptClips
 from record import Value, keep_or_print
 
 from veduta.fauna.document.plan import load_plan
@@ -40,8 +43,10 @@ NEAR = 0.08
 def main() -> None:
     """Measure all of it and keep the table."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--kept", type=Path, help="where fits that are done are kept")
     parser.add_argument("--no-keep", action="store_true")
     given = parser.parse_args()
+    kept = KeptClips(given.kept)
     folder = DATA / "animals" / "dog"
     footage = read_footage(folder / "frames", None)
     found = silhouettes_of(read_masks(folder / "masks", footage), SilhouetteLooks(), "dog")
@@ -59,7 +64,7 @@ def main() -> None:
             pins = {joint: at.copy() for joint, at in marked.items()}
             for at in pins.values():
                 at[held] = np.nan
-        rows += measured(name, found, pins, marked, held)
+        rows += kept.rows(name, partial(measured, name, found, pins, marked, held))
     notes = [
         f"Places within {NEAR:.0%} of the length from rump to nose; judged in labelled frames that"
         " the fit was not given. Nothing was tuned with the dog.",
