@@ -1,12 +1,14 @@
 """Animals without limbs: axes, silhouettes that were not seen, new motion, paths, and their times.
 
 `python benchmarks/fauna/limbless.py` prints a table and keeps it in
-`benchmarks/results/fauna-limbless.md`.
+`benchmarks/results/fauna-limbless.md`. `--times` measures times alone, for a machine without other
+work, and keeps them in `fauna-times.md`.
 Real data is read from `$VEDUTA_DATA`, else from `../shared/data`.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 import time
@@ -44,6 +46,11 @@ WALKS = 1000
 
 def main() -> None:
     """Measure all of it and keep the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--times", action="store_true", help="times alone, each the best of three")
+    if parser.parse_args().times:
+        record("fauna-times", times(), ["The best of three runs."])
+        return
     rows: list[Row] = []
     animals = DATA / "animals"
     if animals.is_dir():
@@ -62,6 +69,16 @@ def main() -> None:
             f"New motion: {WALKS} walks of 6 s at least, seeds 0 to {WALKS - 1}, 40 drawn states.",
         ],
     )
+
+
+def times() -> list[Row]:
+    """How long models and paths take, each the best of three."""
+    lamprey = DATA / "animals" / "lamprey" / "lampreydata.csv"
+    found = [[rendered_lamprey(lamprey)[-1], *million_cells()[:2]] for _ in range(3)]
+    best = [
+        min(same, key=lambda row: float(row["value"] or 0.0)) for same in zip(*found, strict=True)
+    ]
+    return list(best)
 
 
 def drawn_footage(axes: list[Floats], size: tuple[int, int], width_px: float) -> NDArray[np.uint8]:
