@@ -16,9 +16,12 @@ const [studio, minutes, streets, ...addresses] = process.argv.slice(2);
 const { chromium } = createRequire(`${studio}/package.json`)("playwright-core");
 const PATIENCE_MS = 900_000;
 const SPEED_M_S = 1.4;
-const STEP_M = 15;
+const STEP_M = 30;
+/** Where no picture comes for so long, one is asked for again. */
+const ASK_AGAIN_MS = 20_000;
 const EYE_M = 1.7;
 
+let turns = 0;
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
   args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking", "--no-first-run",
@@ -80,11 +83,19 @@ function along(metres) {
   return { at, eye: [x, y, EYE_M], ahead: [isEastward ? 1 : -1, 0] };
 }
 
+/** A picture from there; a hash that is there already changes nothing, so each ask turns the head a little. */
 async function shown(page, { eye, ahead }) {
   const before = await page.evaluate(() => window.veduta.stats().frames);
-  const to = [eye[0] + ahead[0], eye[1] + ahead[1], eye[2]];
-  await page.evaluate((hash) => (location.hash = hash), `mode=walk&eye=${eye.join(",")}&to=${to.join(",")}&off=&hour=12`);
-  await page.waitForFunction((n) => window.veduta.stats().frames > n, before, { timeout: PATIENCE_MS, polling: 200 });
+  for (let asked = 0; asked < PATIENCE_MS / ASK_AGAIN_MS; asked += 1) {
+    turns += 1;
+    const to = [eye[0] + ahead[0] + 1e-3 * (turns % 7), eye[1] + ahead[1], eye[2]];
+    await page.evaluate((hash) => (location.hash = hash), `mode=walk&eye=${eye.join(",")}&to=${to.join(",")}&off=&hour=12`);
+    const isDrawn = await page
+      .waitForFunction((n) => window.veduta.stats().frames > n, before, { timeout: ASK_AGAIN_MS, polling: 200 })
+      .then(() => true, () => false);
+    if (isDrawn) return;
+  }
+  throw new Error(`no picture at ${eye.join(", ")}`);
 }
 
 async function walked(page, address) {

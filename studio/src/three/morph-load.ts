@@ -1,5 +1,5 @@
 /** Loading what a walk needs near the person: the models of transitions, and the pictures of stations. */
-import { BufferAttribute, BufferGeometry, LinearMipmapLinearFilter, Mesh, NoColorSpace, Texture } from "three";
+import { BufferAttribute, BufferGeometry, LinearMipmapLinearFilter, Mesh, NoColorSpace, Texture, type WebGLRenderer } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Fault, faultOf } from "../core/fault.ts";
 import { type MorphWalk, nearTransitions } from "../core/morph-walk.ts";
@@ -30,6 +30,8 @@ export class MorphFiles {
   readonly #ways = new Map<number, WayModels | null>();
   readonly #pictures = new Map<number, Texture | null>();
   #wanted = new Set<number>();
+  /** Pictures that have come, but are not on the card. */
+  readonly #fresh = new Set<Texture>();
 
   constructor(walk: MorphWalk, manifest: URL, onArrival: () => void, onFault: (fault: Fault) => void) {
     this.#walk = walk;
@@ -44,6 +46,15 @@ export class MorphFiles {
 
   picture(station: number): Texture | null {
     return this.#pictures.get(station) ?? null;
+  }
+
+  /** Gives the card one of the pictures that have come: all at once, at a key position, would be felt. */
+  handOver(renderer: Pick<WebGLRenderer, "initTexture">): void {
+    const [next] = this.#fresh;
+    if (next === undefined) return;
+    this.#fresh.delete(next);
+    renderer.initTexture(next);
+    if (this.#fresh.size > 0) this.#onArrival();
   }
 
   /** How many models of transitions are held. */
@@ -139,9 +150,14 @@ export class MorphFiles {
       texture.minFilter = LinearMipmapLinearFilter;
       texture.anisotropy = ANISOTROPY;
       texture.needsUpdate = true;
-      texture.addEventListener("dispose", () => bitmap.close());
-      if (this.#pictures.get(station) === null) this.#pictures.set(station, texture);
-      else texture.dispose();
+      texture.addEventListener("dispose", () => {
+        bitmap.close();
+        this.#fresh.delete(texture);
+      });
+      if (this.#pictures.get(station) === null) {
+        this.#pictures.set(station, texture);
+        this.#fresh.add(texture);
+      } else texture.dispose();
       this.#onArrival();
     } catch (error) {
       this.#pictures.delete(station);

@@ -127,6 +127,7 @@ export class MorphShow {
     this.#aim(between, x / y);
     this.#drawn = { calls: 0, triangles: 0 };
     this.#paint(renderer, between, state, this.#camera, { width: x, height: y });
+    this.#files[state.which]?.handOver(renderer);
     renderer.setRenderTarget(null);
     this.#lay(renderer, between);
   }
