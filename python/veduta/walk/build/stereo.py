@@ -20,8 +20,9 @@ class StereoSettings:
     nearest: depth of the nearest surface that is looked for, in baselines. block_px: of the cost.
     most: disparities at most. check_px: how far left and right may disagree. speckle_px: smaller
     pieces are noise. median_px, sigma_px: of the two filters of section 3.2. smoothness, edge: of
-    the weighted least squares (Min et al. 2014) that carry disparities into what has none. nearer:
-    share of the sure pixels near the end of the search from which it is done again, twice as far.
+    the weighted least squares (Min et al. 2014) that carry disparities into rows that have none;
+    evenness: the same, of those that even what was carried over gaps. nearer: share of the sure
+    pixels near the end of the search from which it is done again, twice as far.
     """
 
     nearest: float = 10.0
@@ -32,6 +33,7 @@ class StereoSettings:
     median_px: int = 5
     sigma_px: float = 1.0
     smoothness: float = 4000.0
+    evenness: float = 100.0
     edge: float = 1.2
     nearer: float = 0.004
 
@@ -135,10 +137,47 @@ def smoothed(
 def carried_over(
     disparity: NDArray[np.float32], guide: Image, settings: StereoSettings = StereoSettings()
 ) -> NDArray[np.float32]:
-    """Carried over gaps by weighted least squares along the picture's edges."""
+    """Carried over gaps: a gap is mostly what one eye alone sees, behind what is beside it.
+
+    So it is as far as the farther of the sure pixels next to it in its row. Rows without any are
+    filled by weighted least squares along the picture's edges.
+    """
     known = np.isfinite(disparity)
     if not known.any():
         return np.zeros_like(disparity)
+    behind = farther_beside(disparity, known)
+    if not np.isfinite(behind).all():
+        behind = np.where(np.isfinite(behind), behind, _spread(disparity, known, guide, settings))
+    # Rows know nothing of each other: a light smoothing along the picture takes the streaks away.
+    smoother = cv2.ximgproc.createFastGlobalSmootherFilter(
+        guide, settings.evenness, settings.edge * 10.0
+    )
+    even = smoother.filter(behind.astype(np.float32))
+    return np.where(known, disparity, even).astype(np.float32)
+
+
+def farther_beside(
+    disparity: NDArray[np.float32], known: NDArray[np.bool_]
+) -> NDArray[np.float32]:
+    """(h, w) the lesser of the nearest known ones to the left and the right; NaN without any."""
+    columns = np.arange(disparity.shape[1])
+    rows = np.arange(len(disparity))[:, None]
+    last = np.maximum.accumulate(np.where(known, columns, -1), axis=1)
+    back = np.where(known, columns, len(columns))[:, ::-1]
+    following = np.minimum.accumulate(back, axis=1)[:, ::-1]
+    before = np.where(last >= 0, disparity[rows, np.maximum(last, 0)], np.nan)
+    end = np.minimum(following, len(columns) - 1)
+    after = np.where(following < len(columns), disparity[rows, end], np.nan)
+    return np.fmin(before, after).astype(np.float32)
+
+
+def _spread(
+    disparity: NDArray[np.float32],
+    known: NDArray[np.bool_],
+    guide: Image,
+    settings: StereoSettings,
+) -> NDArray[np.float32]:
+    """Weighted least squares of what is known, over the whole picture."""
     smoother = cv2.ximgproc.createFastGlobalSmootherFilter(
         guide, settings.smoothness, settings.edge * 10.0
     )
@@ -146,5 +185,4 @@ def carried_over(
     carried = smoother.filter(np.where(known, disparity, 0.0).astype(np.float32))
     share = smoother.filter(weight)
     middle = float(np.nanmedian(disparity))
-    spread = np.where(share > 1e-4, carried / np.maximum(share, 1e-4), middle)
-    return np.where(known, disparity, spread).astype(np.float32)
+    return np.where(share > 1e-4, carried / np.maximum(share, 1e-4), middle).astype(np.float32)
