@@ -1,7 +1,7 @@
 """How `veduta dense` grows: processor time and memory by images and by pixels.
 
-python benchmarks/dense/growth.py [--keep]: a rendered facade from 25 to 200 places, and from 25 at
-three sizes; each run is a process of its own, whose processor time and peak of memory (resident)
+python benchmarks/dense/growth.py [--keep]: a rendered facade from 50 to 200 places, and from 50 at
+two sizes; each run is a process of its own, whose processor time and peak of memory (resident)
 are the kernel's figures. Nothing is scored here.
 """
 
@@ -30,8 +30,16 @@ from veduta.synthetic.scene import RayScene
 from veduta.synthetic.styles import design
 
 SEED, AWAY_M = 51, 7.0
-RUNS = ((25, 160), (50, 160), (100, 160), (200, 160), (25, 240), (25, 320))
-"""Images, and their width (px)."""
+MORE = ("--no-texture", "--agree", "1", "--max-triangles", "100000", "-q")
+RUNS = (
+    ("linking", 50, 160),
+    ("linking", 100, 160),
+    ("linking", 200, 160),
+    ("linking", 50, 320),
+    ("patchmatch", 12, 160),
+    ("patchmatch", 24, 160),
+)
+"""Method, images, and their width (px)."""
 
 
 def write_photos(folder: Path, count: int, width: int) -> None:
@@ -65,20 +73,23 @@ def _write(folder: Path, number: int, camera: Camera, photo: NDArray[np.uint8]) 
     (folder / "cameras" / f"view{number:03d}.camera").write_text("\n".join(rows))
 
 
-def measured(count: int, width: int) -> Row:
+def measured(method: str, count: int, width: int) -> Row:
     """A run of the verb with as many images."""
     with tempfile.TemporaryDirectory() as scratch:
         folder, out = Path(scratch) / "set", Path(scratch) / "out"
         write_photos(folder, count, width)
         command = [sys.executable, "-m", "veduta.cli.main", "dense", str(folder), "-o", str(out)]
         began = time.perf_counter()
-        child = os.posix_spawn(sys.executable, [*command, "--no-texture", "-q"], dict(os.environ))
+        child = os.posix_spawn(
+            sys.executable, [*command, "--method", method, *MORE], dict(os.environ)
+        )
         _, status, used = os.wait4(child, 0)
         seconds = time.perf_counter() - began
         kept = sum(one.stat().st_size for one in out.rglob("*") if one.is_file())
     pixels = count * width * round(0.75 * width) / 1e6
     processor = used.ru_utime + used.ru_stime
     return {
+        "method": method,
         "images": count,
         "px": f"{width} x {round(0.75 * width)}",
         "megapixels": round(pixels, 2),

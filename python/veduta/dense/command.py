@@ -32,7 +32,7 @@ from veduta.dense.read.pictures import (
     usable_cameras,
     working_scale,
 )
-from veduta.dense.read.sparse import SparsePoints, match_points
+from veduta.dense.read.sparse import SparsePoints, match_points, require_in_view
 from veduta.dense.read.walls import WALLS, read_elevations
 from veduta.dense.single import require_view, single_mesh
 from veduta.dense.streaming import write_tiles
@@ -53,7 +53,7 @@ from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 from veduta.surfaces import Simplified, simplify, vertex_normals
 
-VERSION = "4"
+VERSION = "5"
 SURFACE = "surface"
 MEMORY_OF_VOLUME = 0.5
 """Share of the memory that the volume may take."""
@@ -215,7 +215,9 @@ def _sparse(given: _Given, views: Views, parameters: DenseParameters) -> SparseP
         return match_points(views, cameras.source, parameters.sparse)
     of_name = {one.name: index for one, index in zip(cameras.cameras, cameras.visible, strict=True)}
     visible = tuple(np.asarray(of_name[one.name], dtype=np.intp) for one in given.usable)
-    return SparsePoints(np.asarray(cameras.points, dtype=np.float64), visible)
+    own = SparsePoints(np.asarray(cameras.points, dtype=np.float64), visible)
+    require_in_view(views, own, cameras.source, parameters.sparse)
+    return own
 
 
 def _cloud(

@@ -18,11 +18,14 @@ class AgreeParameters:
     """most_px: by which the way to another view's depth and back may miss. most_share: by which the
     depths may differ. most_cost: (1 - NCC, with what neighbours say) of a depth that is kept;
     2.3 is a view that does not see it, and a pixel at the side of a street has one that does.
+    most_far: of the farthest depth that is looked at, 1.8 times the farthest point: what has no
+    parallax because it moves with the cameras (a car's own mast) ends up beyond it.
     """
 
     most_px: float = 1.5
     most_share: float = 0.01
     most_cost: float = 1.4
+    most_far: float = 0.9
 
 
 def agreed_depths(
@@ -44,6 +47,7 @@ def agreed_depths(
     cost = own[:, 3].reshape(shapes[0])
     needed = min(least, len(shown) - 1)
     good = (agree >= max(needed, 1)) & (cost < parameters.most_cost)
+    good &= depths[0] < parameters.most_far * comparison.far_m
     hidden = views.hidden(comparison.view)
     if hidden is not None:
         good &= ~hidden

@@ -12,6 +12,10 @@ from veduta.dense.document.views import Views, camera_row, scaled_row
 from veduta.run.errors import InputError
 
 Pair = tuple[int, int]
+_CONVENTION = (
+    "Cameras look along +z, with x to the right and y down, and turn points of the world into their"
+    " frame (not the other way); give them in that convention, and for photos of this size."
+)
 
 
 @dataclass(frozen=True)
@@ -20,7 +24,9 @@ class SparseParameters:
     Lowe's (2004). most_px: distance from the epipolar line of a match that the cameras confirm, at
     1000 px. partners: photos that each is matched with. least_share: of the matches, below which
     the cameras are taken to be wrong (right cameras of a fountain confirmed 0.92 and
-    0.94). least_matches: on which that is decided.
+    0.94). least_matches: on which that is decided. least_in_view: share of a set's own points
+    that must lie in front of the cameras that are said to show them, and in their photos or beside
+    them by not more than beside (of the photo).
     """
 
     scale_side_px: int = 1000
@@ -30,6 +36,8 @@ class SparseParameters:
     partners: int = 6
     least_share: float = 0.3
     least_matches: int = 60
+    least_in_view: float = 0.7
+    beside: float = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,12 +86,26 @@ def _require_confirmed(source: str, made: int, true: int, parameters: SparsePara
             f"has cameras that do not fit their photos: of {made} matches between photos they "
             f"confirm {true}"
         )
-        remedy = (
-            "Cameras look along +z, with x to the right and y down, and turn points of the world "
-            "into their frame (not the other way); give them in that convention, and for photos "
-            "of this size."
+        raise InputError(source, fault, _CONVENTION)
+
+
+def require_in_view(
+    views: Views, sparse: SparsePoints, source: str, parameters: SparseParameters
+) -> None:
+    """Refuse cameras that do not have the points of their own set before them, in their photos."""
+    made = right = 0
+    for camera, index in zip(views.cameras, sparse.visible, strict=True):
+        pixels, depth = camera.project(sparse.points_m[index])
+        size = np.array([camera.width_px, camera.height_px])
+        margin = parameters.beside * size
+        inside = ((pixels >= -margin) & (pixels <= size + margin)).all(axis=1)
+        made, right = made + len(index), right + int((inside & (depth > 0.0)).sum())
+    if made >= parameters.least_matches and right < parameters.least_in_view * made:
+        fault = (
+            f"has cameras that do not fit their points: of {made} places where photos are said to "
+            f"show a point, {right} lie before the camera and in its photo"
         )
-        raise InputError(source, fault, remedy)
+        raise InputError(source, fault, _CONVENTION)
 
 
 def near_pairs(views: Views, partners: int) -> list[Pair]:
