@@ -45,6 +45,7 @@ VARIANTS: dict[str, tuple[StreetOptions, TruckOptions]] = {
     "hedge before all": (StreetOptions(length_m=100.0, hedge=True), TruckOptions()),
     "5 % of scans lost": (StreetOptions(length_m=100.0), TruckOptions(dropped=0.05)),
 }
+MOST_OFF_M = 1.0
 Scores = dict[str, list[float]]
 
 
@@ -63,6 +64,7 @@ def measure(street: Street, scans: DriveScans, scores: Scores) -> None:
                 geometry = reconstruct(segment, frame, points, options)
                 _layers(geometry, points, scans, scores)
                 _filled(geometry, street, scores)
+                _against_raw(geometry, street, scores)
         scores.setdefault("seconds", []).append(time.perf_counter() - begin)
 
 
@@ -123,6 +125,38 @@ def _filled(geometry: Geometry, street: Street, scores: Scores) -> None:
     scores.setdefault("filled ground RMS (m)", []).append(_rms(height[below]))
 
 
+def _against_raw(geometry: Geometry, street: Street, scores: Scores) -> None:
+    """The surface as scanned and as made, over the beams that reach a facade behind all else.
+
+    Each beam is off by at most MOST_OFF_M, and by that where there is no surface. Where the scanner
+    is coarser than the depth image, only its own beams count.
+    """
+    frame, layers = geometry.frame, geometry.layers
+    met = np.isfinite(layers.first)
+    rows, columns = np.nonzero(met | (np.isfinite(geometry.background.depth) & _own_rows(met)))
+    angle = frame.angles_rad[rows]
+    flat = frame.outward[columns] * np.cos(angle)[:, None]
+    directions = np.concatenate([flat, np.sin(angle)[:, None]], axis=1)
+    origins = frame.origins[columns]
+    wall, ground = to_boxes(origins, directions, street.walls), to_ground(origins, directions)
+    true = np.minimum(wall, ground) * np.cos(angle)
+    known = np.isfinite(true) & (true < DriveOptions().columns.farthest_m)
+    off = [
+        np.minimum(np.nan_to_num(np.abs(depth[rows, columns] - true), nan=MOST_OFF_M), MOST_OFF_M)
+        for depth in (layers.first, geometry.background.depth)
+    ]
+    raw, made = (float(one[known].mean()) for one in off)
+    scores.setdefault("raw off (m)", []).append(raw)
+    scores.setdefault("made off (m)", []).append(made)
+    scores.setdefault("segments better than raw", []).append(float(made < raw))
+    scores.setdefault("segments worse", []).append(float(made > raw))
+
+
+def _own_rows(met: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(r, 1) the rows of the depth image on which beams of the scanner fall."""
+    return np.asarray(met.mean(axis=1, keepdims=True) > 0.1)
+
+
 def _rms(values: NDArray[np.float64]) -> float:
     return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")
 
@@ -145,6 +179,9 @@ def main() -> None:
         [
             "100 m of houses each; scanner: 180 degrees at 1, sigma 3.5 cm; glass lets rays"
             " pass. Bounds: recall and precision 0.97, filled geometry 0.15 m RMS.",
+            "Off from the true facades and ground, beam by beam, at most 1 m, as much where there is"
+            " no surface: of what was scanned and of what was made; shares of segments (bounds:"
+            " better 0.80, worse 0.02).",
             "Poses are given; there are no images. Seeds from 100 on were not looked at before.",
         ],
     )

@@ -9,7 +9,13 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Out, Quiet
-from veduta.drive.options import ColumnOptions, DriveOptions, MeshOptions, TextureOptions
+from veduta.drive.options import (
+    ColumnOptions,
+    DriveOptions,
+    MeshOptions,
+    OtherOptions,
+    TextureOptions,
+)
 
 Log = Annotated[
     tyro.conf.Positional[Path],
@@ -47,6 +53,7 @@ class DriveCall:
     log: Log
     out: Out
     columns: ColumnOptions = field(default_factory=ColumnOptions)
+    others: OtherOptions = field(default_factory=OtherOptions)
     mesh: MeshOptions = field(default_factory=MeshOptions)
     texture: TextureOptions = field(default_factory=TextureOptions)
     document: Document = None
@@ -57,5 +64,9 @@ class DriveCall:
     def options(self) -> DriveOptions:
         """What changes the result."""
         return DriveOptions(
-            columns=self.columns, mesh=self.mesh, texture=self.texture, seed=self.seed
+            columns=self.columns,
+            others=self.others,
+            mesh=self.mesh,
+            texture=self.texture,
+            seed=self.seed,
         )

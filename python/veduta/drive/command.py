@@ -20,6 +20,8 @@ from veduta.drive.build.facade_files import FACADES, write_facade_list
 from veduta.drive.build.outcome import Outcome
 from veduta.drive.build.pictures import plan_picture
 from veduta.drive.build.place import PICTURES, classified, drive_place
+from veduta.drive.build.times import times_table
+from veduta.drive.build.vote import PAGE, write_vote
 from veduta.drive.document.load import DOCUMENT, load_document
 from veduta.drive.document.model import Correction, DriveDocument, DriveSegment, PathPose
 from veduta.drive.options import DriveOptions
@@ -109,7 +111,7 @@ def _make(
     with work.step("place"):
         told = {one.segment.id: one.segment for one in layered}
         known = [told.get(one.id, one) for one in segments]
-        _write(log, record, known, outcomes, line, road_m, work)
+        _write(log, record, known, outcomes, line, road_m, options.seed, work)
     _tell(record, outcomes, line, work)
 
 
@@ -120,6 +122,7 @@ def _write(
     outcomes: Sequence[Outcome],
     line: NDArray[np.float64],
     road_m: float,
+    seed: int,
     work: Work,
 ) -> None:
     folder = work.folder
@@ -169,6 +172,8 @@ def _write(
         files.append((f"{FACADES}/", "each facade plane straight on, and where it stands"))
     if bodies:
         files.append((BUILDINGS, "the houses behind the facades, closed, with roofs (LoD2)"))
+    if write_vote([one.pair for one in outcomes if one.pair is not None], folder, seed):
+        files.append((PAGE, "segments as scanned and as made, side by side, for a vote"))
     work.measure("facade_planes", planes)
     files += [(f"{PICTURES}/", "the images")] if record.shots else []
     for name, meaning in files:
@@ -230,6 +235,11 @@ def _tell(
     if looked:
         wrong = sum(one.contradicted for one in outcomes)
         work.measure("filled_points_where_images_disagree", round(wrong / looked, 4))
+    filled = sum(one.others.pixels for one in outcomes)
+    if filled:
+        apart = sum(one.others.off_m * one.others.pixels for one in outcomes if one.others.pixels)
+        work.measure("hole_pixels_from_other_sensors", filled)
+        work.measure("others_apart_from_interpolation_m", round(apart / filled, 4))
     work.summary = (
         f"{len(outcomes)} facade meshes of {triangles:,} triangles; {objects} objects taken out;"
         f" {100 * share:.1f} % of the triangles are seen in no image"
@@ -247,6 +257,7 @@ def _tell(
         "Building yellow, foreground green, ground brown, glass blue, filled orange, path white",
         plan_picture(points, kinds, line),
     )  # fmt: skip
+    work.table(times_table({step.name: step.seconds for step in work.steps}, outcomes))
     rows: list[list[Count | None]] = []
     for one in outcomes:
         rows.append([

@@ -30,8 +30,13 @@ class ColumnOptions(Options):
 class OtherOptions(Options):
     """What else than the vertical scans fills holes of facades, before they are interpolated."""
 
-    level_scans: bool = Field(default=True, description="points of the scanner that looks level")
-    stereo: bool = Field(default=True, description="points from consecutive images")
+    level_scans: bool = Field(
+        default=True,
+        description="points of the scanner that looks level; --no-level-scans: without",
+    )
+    stereo: bool = Field(
+        default=True, description="points of corners in consecutive images; --no-stereo: without"
+    )
 
 
 class MeshOptions(Options):

@@ -6,10 +6,12 @@ What is made of a segment is on disk as soon as it is made, so that a killed run
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import partial
+from itertools import islice
+from typing import TypeVar
 
 from pydantic import JsonValue
 
@@ -38,6 +40,10 @@ MOST_TAKEN_OUT = 3_000_000
 """Points of the whole drive that are shown as taken out; `points.laz` has all."""
 FEWEST_COLUMNS = 10
 """Columns with a facade that a segment needs."""
+
+_IDLE_S = 0.5
+Item = TypeVar("Item")
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,19 +93,27 @@ def layer_segments(
 
 
 def _side_by_side(
-    make: Callable[[DriveSegment], Geometry], segments: Sequence[DriveSegment]
-) -> Iterator[tuple[DriveSegment, Geometry]]:
-    """Each segment with what is made of it, in their order; as many at once as there are cores."""
+    make: Callable[[Item], Made],
+    items: Iterable[Item],
+    idle: Callable[[], None] = lambda: None,
+) -> Iterator[tuple[Item, Made]]:
+    """Each item with what is made of it, in their order; as many at once as there are cores.
+
+    Items are taken from what gives them here, not in a thread. idle: is called now and then.
+    """
     cores = available_cores()
-    waiting = list(segments)
+    waiting = iter(items)
     with ThreadPoolExecutor(cores) as pool:
-        at_work: deque[tuple[DriveSegment, Future[Geometry]]] = deque()
-        while waiting or at_work:
-            while waiting and len(at_work) < cores:
-                segment = waiting.pop(0)
-                at_work.append((segment, pool.submit(make, segment)))
-            segment, made = at_work.popleft()
-            yield segment, made.result()
+        at_work: deque[tuple[Item, Future[Made]]] = deque()
+        while True:
+            for item in islice(waiting, cores - len(at_work)):
+                at_work.append((item, pool.submit(make, item)))
+            if not at_work:
+                return
+            item, made = at_work.popleft()
+            while not wait([made], timeout=_IDLE_S).done:
+                idle()
+            yield item, made.result()
 
 
 def _kept_geometry(
@@ -136,38 +150,37 @@ def texture_segments(
     work: Work,
 ) -> list[Outcome]:
     """Section 7 for all segments, and what the report shows of each."""
-    found = []
+    found: list[Outcome] = []
     images = NearImages(record.shots, [(one.segment, one.around) for one in layered])
+    shares = dict.fromkeys(range(len(layered)), 0.0)
+
+    def load(number: int, seen: list[Seen]) -> Textured:
+        one = layered[number]
+
+        def told(share: float) -> None:
+            shares[number] = share
+
+        kept: Textured = work.kept(
+            f"texture-{one.segment.id}", _inputs(one.segment, options, digests),
+            lambda: texture(one.load(), seen, options, told),
+            save_result, lambda folder: load_result(Textured, folder),
+        )  # fmt: skip
+        return kept
+
+    def idle() -> None:
+        work.progress("texture", sum(shares.values()) / len(layered))
+
+    near = ((number, images.near(one.segment)) for number, one in enumerate(layered))
     with work.step("texture") as step:
-        for number, one in enumerate(layered):
-
-            def told(share: float, number: int = number) -> None:
-                work.progress("texture", (number + share) / len(layered))
-
-            told(0.0)
-            seen = images.near(one.segment)
-
-            def make(
-                one: Layered = one,
-                seen: list[Seen] = seen,
-                told: Callable[[float], None] = told,
-            ) -> Textured:
-                return texture(one.load(), seen, options, told)
-
-            def load(one: Layered = one, make: Callable[[], Textured] = make) -> Textured:
-                kept: Textured = work.kept(
-                    f"texture-{one.segment.id}", _inputs(one.segment, options, digests), make,
-                    save_result, lambda folder: load_result(Textured, folder),
-                )  # fmt: skip
-                return kept
-
-            made = load()
+        for (number, seen), made in _side_by_side(lambda item: load(*item), near, idle):
+            shares[number] = 1.0
+            idle()
             found.append(outcome_of(
-                made, load, seen, options.texture.texel_m,
+                made, partial(load, number, []), seen, options.texture.texel_m,
                 max(MOST_TAKEN_OUT // len(layered), 1), work.folder,
             ))  # fmt: skip
             _show(made, work)
-            step.counts[f"{one.segment.id}: triangles"] = len(made.surface.triangles)
+            step.counts[f"{layered[number].segment.id}: triangles"] = len(made.surface.triangles)
         step.counts["images"] = images.looked
     return found
 

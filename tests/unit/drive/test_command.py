@@ -9,6 +9,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from PIL import Image
 
 from veduta.drive import DriveOptions, run_drive, stages
 from veduta.drive.document.model import DriveDocument
@@ -231,3 +232,26 @@ def test_the_street_as_scanned_lies_beside_each_model(out: Path) -> None:
     built = Place.load(out).parts["left-001"].triangles()[0]
     assert ((built[:, 0] > -9.5) & (built[:, 2] > 0.5)).mean() < 0.01
     assert abs(np.median(vertices["left-001-ground"][:, 2])) < 0.3
+
+
+def test_a_page_asks_which_is_better(out: Path) -> None:
+    """Both pictures of each segment are there; what was scanned has holes, what was made has none."""
+    page = (out / "vote.html").read_text()
+    rows = json.loads((out / "place.json").read_text())["parts"]
+    for name in {row["id"].removesuffix("-ground") for row in rows}:
+        assert f'data-segment="{name}" data-made="' in page
+        pictures = []
+        for word in ("scanned", "made"):
+            assert f'src="vote/{name}-{word}.jpg"' in page
+            with Image.open(out / "vote" / f"{name}-{word}.jpg") as picture:
+                pictures.append(np.asarray(picture, dtype=float).mean(axis=2))
+        assert pictures[0].shape == pictures[1].shape
+        empty = [(one > 220).mean() for one in pictures]
+        assert 0.1 < empty[1] < empty[0] < 0.9
+
+
+def test_times_stand_beside_the_papers(out: Path) -> None:
+    report = (out / "report.html").read_text()
+    assert "texture mapping and atlas" in report
+    assert "1394" not in report  # 23 h 08 min are 1388
+    assert "1388" in report.replace(",", "").replace("\u202f", "")

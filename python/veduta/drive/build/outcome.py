@@ -16,9 +16,12 @@ from veduta.drive.build.facade_planes import FacadePlane, facade_planes, orthoph
 from veduta.drive.build.fill import Source
 from veduta.drive.build.layers import PointClass
 from veduta.drive.build.meshes import CLASS_COLOURS, segment_mesh
+from veduta.drive.build.other_points import Others
 from veduta.drive.build.pictures_of import Seen
-from veduta.drive.build.raw import raw_file, write_raw
+from veduta.drive.build.raw import raw_file, raw_meshes, write_raw
 from veduta.drive.build.segment import Geometry, Textured
+from veduta.drive.build.views import before_after
+from veduta.drive.build.vote import Pair, write_pair
 from veduta.drive.document.model import DriveSegment
 from veduta.place.mesh import Mesh
 from veduta.place.place import Standing
@@ -36,7 +39,8 @@ class Outcome:
     fine: before any were joined; unseen_share: of those, error_m: by which that moved the surface.
     texels: of the atlas. looked, contradicted: filled pixels that images were asked about, and
     those where they disagree. planes: of its facades, by their names, and their rows of the list.
-    raw: the parts that have a model of what was scanned.
+    raw: the parts that have a model of what was scanned. pair: the segment's pictures for a vote.
+    others: what points of other sensors filled. seconds: geometry, atlas, synthesis, joining.
     """
 
     segment: DriveSegment
@@ -57,6 +61,9 @@ class Outcome:
     contradicted: int
     planes: tuple[tuple[str, FacadePlane, Row], ...]
     raw: frozenset[str]
+    pair: Pair | None
+    others: Others
+    seconds: tuple[float, float, float, float]
 
 
 def outcome_of(
@@ -80,8 +87,7 @@ def outcome_of(
     taken_out = _some(geometry.foreground(), most_taken_out)
     points, kinds = with_filled(geometry)
     ground = surface.vertices[surface.triangles[~surface.wall]][..., 2]
-    drawn = len(surface.triangles) > 0
-    raw = write_raw(geometry, surface.vertices.mean(axis=0), seen, folder) if drawn else frozenset()
+    raw, pair = _as_scanned(textured, seen, folder)
     return Outcome(
         geometry.segment, load, taken_out, coloured(taken_out, seen, CLASS_COLOURS[PointClass.FOREGROUND]),
         np.bincount(kinds, minlength=256), _some(points, _SAMPLE), _some(kinds, _SAMPLE),
@@ -89,8 +95,23 @@ def outcome_of(
         len(surface.triangles), textured.fine_triangles, textured.unseen_share,
         textured.error_m, int(textured.atlas.surface.sum()), textured.consistency.looked,
         int(textured.consistency.contradicted.sum()), tuple(planes),
-        raw,
+        raw, pair, geometry.others,
+        (geometry.seconds, textured.atlas_s, textured.fill_s, textured.join_s),
     )  # fmt: skip
+
+
+def _as_scanned(
+    textured: Textured, seen: Sequence[Seen], folder: Path
+) -> tuple[frozenset[str], Pair | None]:
+    """Writes the raw models of a segment, and its pictures for a vote."""
+    surface, segment = textured.surface, textured.geometry.segment
+    if not len(surface.triangles):
+        return frozenset(), None
+    middle = surface.vertices.mean(axis=0)
+    meshes = raw_meshes(textured.geometry, middle, seen)
+    views = before_after(textured, meshes, middle)
+    pair = None if views is None else write_pair(segment.id, segment.fate == "as-is", views, folder)
+    return write_raw(meshes, folder), pair
 
 
 def placed_meshes(

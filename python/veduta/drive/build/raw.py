@@ -26,7 +26,7 @@ UNSEEN = (150, 150, 148)
 """The colour of what no image shows."""
 _BLOCKS = ((1, 1), (2, 1), (3, 1), (2, 2), (3, 2), (4, 2), (4, 3))
 """Beams that make one cell, up and along."""
-_WHOLE = 0.7
+_WHOLE = 0.85
 """Cells are large enough where so many have neighbours."""
 
 
@@ -42,12 +42,16 @@ def met(geometry: Geometry) -> tuple[NDArray[np.float64], NDArray[np.float32], N
     so many that most cells have one. NaN where there is none.
     """
     first, frame = geometry.layers.first, geometry.frame
+    shares = []
     for rows, columns in _BLOCKS:
         cells = _in_blocks(first, rows, columns)
-        nearest = np.where(np.isfinite(cells), cells, np.inf).argmin(axis=2)
-        depth = np.take_along_axis(cells, nearest[..., None], axis=2)[..., 0]
-        if _neighbours(depth) > _WHOLE:
+        shares.append(_neighbours(np.where(np.isfinite(cells), cells, np.inf).min(axis=2)))
+        if shares[-1] > _WHOLE:
             break
+    rows, columns = _BLOCKS[int(np.argmax(shares))]
+    cells = _in_blocks(first, rows, columns)
+    nearest = np.where(np.isfinite(cells), cells, np.inf).argmin(axis=2)
+    depth = np.take_along_axis(cells, nearest[..., None], axis=2)[..., 0]
     at = [
         np.take_along_axis(_in_blocks(one, rows, columns), nearest[..., None], axis=2)[..., 0]
         for one in (*np.moveaxis(frame.vertices(first), 2, 0), on_ground(geometry.layers))
@@ -99,12 +103,8 @@ def on_ground(layers: Layers) -> NDArray[np.bool_]:
     return np.asarray(~layers.wall & ~np.isfinite(layers.foreground))
 
 
-def write_raw(geometry: Geometry, middle: NDArray[np.float64], seen: Sequence[Seen], folder: Path) -> frozenset[str]:
-    """Write the raw models of a segment into the folder of the place; the ids of their parts.
-
-    middle: (3,) the origin of the parts (m, world). seen: images near it, which colour the beams.
-    """
-    meshes = raw_meshes(geometry, middle, seen)
+def write_raw(meshes: Sequence[Mesh], folder: Path) -> frozenset[str]:
+    """Write the raw models of a segment into the folder of the place; the ids of their parts."""
     for mesh in meshes:
         file = ModelFile(raw_file(mesh.id))
         row = PlacedPart(mesh.id, Standing(), partial(_itself, mesh), file=file, _content=mesh)

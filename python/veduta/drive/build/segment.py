@@ -86,7 +86,7 @@ class Textured:
 
     unseen_share: of the triangles that no image shows, before any were joined: fine_triangles.
     error_m: by which joining them moved the surface. consistency: whether images agree where walls
-    were filled.
+    were filled. atlas_s, fill_s, join_s: what the atlas, its holes and joining triangles took.
     """
 
     geometry: Geometry
@@ -101,6 +101,9 @@ class Textured:
     fine_triangles: int
     error_m: float
     consistency: Consistency
+    atlas_s: float
+    fill_s: float
+    join_s: float
 
 
 def frame_of(segment: DriveSegment, options: DriveOptions, road_m: float) -> ColumnFrame:
@@ -166,6 +169,7 @@ def texture(
     told: Callable[[float], None] = lambda share: None,
 ) -> Textured:
     """Section 7, and the walls up to the roof line. told: hears how far it is, 0 to 1."""
+    begin = time.perf_counter()
     frame, background = geometry.frame, geometry.background
     tops, known = find_roof_line(background, frame, seen, options.texture.wall_top_m)
     raised = raise_walls(background, frame, tops)
@@ -173,6 +177,7 @@ def texture(
     told(_BEFORE_ATLAS)
     atlas = build_atlas(raised.depth, frame, seen, options.texture.texel_m)
     told(_BEFORE_FILL)
+    made = time.perf_counter()
     if options.texture.fill:
         pixels, invented, plain = fill_texture(
             atlas, options.texture.texel_m,
@@ -181,11 +186,14 @@ def texture(
     else:
         pixels, plain = atlas.pixels, atlas.surface & ~atlas.seen
         invented = np.zeros_like(plain)
+    filled = time.perf_counter()
     unseen = _unseen_share(fine, atlas)
     surface, error_m = lighten(fine, options.mesh.error_m)
+    joined = time.perf_counter()
     return Textured(
         geometry, raised, surface, atlas, pixels, invented, plain, known, unseen,
         len(fine.triangles), error_m, check_filled(background, frame, seen),
+        made - begin, filled - made, joined - filled,
     )  # fmt: skip
 
 
