@@ -179,9 +179,9 @@ def main() -> None:
         [
             "100 m of houses each; scanner: 180 degrees at 1, sigma 3.5 cm; glass lets rays"
             " pass. Bounds: recall and precision 0.97, filled geometry 0.15 m RMS.",
-            "Off from the true facades and ground, beam by beam, at most 1 m, as much where there is"
-            " no surface: of what was scanned and of what was made; shares of segments (bounds:"
-            " better 0.80, worse 0.02).",
+            "Off from the true facades and ground, beam by beam, at most 1 m, as much where"
+            " there is no surface: of what was scanned and of what was made; shares of segments"
+            " (bounds: better 0.80, worse 0.02).",
             "Poses are given; there are no images. Seeds from 100 on were not looked at before.",
         ],
     )

@@ -235,7 +235,7 @@ def test_the_street_as_scanned_lies_beside_each_model(out: Path) -> None:
 
 
 def test_a_page_asks_which_is_better(out: Path) -> None:
-    """Both pictures of each segment are there; what was scanned has holes, what was made has none."""
+    """Both pictures of each segment are there; only what was scanned has holes."""
     page = (out / "vote.html").read_text()
     rows = json.loads((out / "place.json").read_text())["parts"]
     for name in {row["id"].removesuffix("-ground") for row in rows}:

@@ -5,6 +5,7 @@ one.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -112,6 +113,20 @@ def test_model_of_another_place_is_refused(
     start = (LOW[0] + truth[0, 0], LOW[1] + truth[0, 1], float(truth[0, 2]))
     with pytest.raises(NotFoundError, match="surface model"):
         localise(chain, other, start, (20.0, 20.0, 0.4), 1, parameters=FEW)
+
+
+@pytest.mark.parametrize(("east_m", "north_m"), [(35.0, -25.0), (40.0, 30.0), (-4.0, 45.0)])
+def test_a_start_that_is_wrong_is_refused_or_doubted(
+    driven: tuple[Floats, ScanChain], model: SurfaceModel, east_m: float, north_m: float
+) -> None:
+    """The drive began elsewhere than within the reach of what was said."""
+    truth, chain = driven
+    start = (LOW[0] + truth[0, 0] + east_m, LOW[1] + truth[0, 1] + north_m, float(truth[0, 2]))
+    found = None
+    with suppress(NotFoundError):
+        found = localise(chain, model, start, (6.0, 6.0, 0.2), 1, parameters=FEW)
+    # What `find_path` tells a doubt from: too few points on edges, or a better place around.
+    assert found is None or found.share[found.sure].mean() < 0.8 or found.margin.share < 0.1
 
 
 def test_model_without_buildings_is_refused(
