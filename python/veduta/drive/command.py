@@ -19,7 +19,7 @@ from veduta.drive.build.edited import with_document
 from veduta.drive.build.facade_files import FACADES, write_facade_list
 from veduta.drive.build.outcome import Outcome
 from veduta.drive.build.pictures import plan_picture
-from veduta.drive.build.place import PICTURES, classified, drive_place
+from veduta.drive.build.place import PICTURES, add_houses, classified, drive_place
 from veduta.drive.build.times import times_table
 from veduta.drive.build.vote import PAGE, write_vote
 from veduta.drive.document.load import DOCUMENT, load_document
@@ -154,10 +154,12 @@ def _write(
         ((one.points_m, one.colours, one.classes) for one in classified(outcomes)),
         folder / POINTS, (near[0], near[1], near[2]), crs=record.crs, origin_m=record.origin_m,
     )  # fmt: skip
-    drive_place(record, outcomes, line, road_m, folder).save(folder)
+    place = drive_place(record, outcomes, line, road_m, folder)
+    bodies = _bodies(record, outcomes, folder / BUILDINGS, work)
+    add_houses(place, bodies, record)
+    place.save(folder)
     rows = [row for one in outcomes for _, _, row in one.planes]
     planes = write_facade_list(rows, folder / FACADES)
-    bodies = _bodies(record, outcomes, folder / BUILDINGS, work)
     files = [
         ("place.json", "the place: `veduta view` shows it"),
         ("parts/", "a textured mesh of each segment (GLB)"),
@@ -180,12 +182,12 @@ def _write(
         work.file(name, meaning)
 
 
-def _bodies(record: DriveRecord, outcomes: Sequence[Outcome], path: Path, work: Work) -> int:
-    """How many houses are closed by the roofs of the surface model; says why where none is."""
+def _bodies(record: DriveRecord, outcomes: Sequence[Outcome], path: Path, work: Work) -> list[Body]:
+    """The houses that are closed by the roofs of the surface model; says why where none is."""
     grid = None if record.roofs is None else record.roofs()
     if grid is None:
         work.note(f"no {BUILDINGS}: the log names no surface model, so that roofs are unknown")
-        return 0
+        return []
     bodies: list[Body] = []
     for one in outcomes:
         for name, plane, _ in one.planes:
@@ -202,7 +204,7 @@ def _bodies(record: DriveRecord, outcomes: Sequence[Outcome], path: Path, work: 
     if not bodies:
         work.note(f"no {BUILDINGS}: the surface model has no roofs behind the facades")
     work.measure("buildings_closed", len(bodies) - len(left_out))
-    return len(bodies) - len(left_out)
+    return [one for one in bodies if one.name not in left_out]
 
 
 def _corrections(record: DriveRecord) -> list[Correction]:

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from veduta.drive.build.bodies import bodies_of
 from veduta.drive.build.body_file import write_bodies
+from veduta.drive.build.body_mesh import houses_mesh
 from veduta.drive.build.facade_planes import FacadePlane
 from veduta.drive.read.surface_model import read_heights
 from veduta.drive.record import HeightGrid
+from veduta.place.semantics import SemanticClass
 from veduta.synthetic.drives import StreetOptions, build_street
 from veduta.synthetic.drives.surface import surface_of, write_surface
 
@@ -130,3 +132,23 @@ def test_the_surface_of_a_street_has_its_houses(tmp_path: Path) -> None:
         (body,) = bodies_of("a", FacadePlane(0, 10, left, right, 5.0), grid).found
         assert body.profile[:, 1].max() == pytest.approx(z1, abs=0.5)
         assert body.profile[-1, 0] == pytest.approx(10.0, abs=1.3)
+
+
+def test_houses_of_the_place_are_the_bodies_without_fronts() -> None:
+    """With the fronts and the ground that are left out each is closed, and turns outwards."""
+    grid = _grid([(0.0, 14.0, 10.0, GABLE), (14.0, 30.0, 12.0, FLAT * [1.0, 1.5])])
+    bodies = bodies_of("a", _plane(0.0, 30.0), grid).found
+    assert len(bodies) == 2
+    mesh = houses_mesh(bodies, np.array([-10.0, 15.0, 0.0]))
+    corners = mesh.positions_m.astype(float)[mesh.triangles] + [-10.0, 15.0, 0.0]
+    areas = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    whole, missing = np.zeros(3), np.zeros(3)
+    for body in bodies:
+        for kind, face in body.faces():
+            turned = np.cross(face, np.roll(face, -1, axis=0)).sum(axis=0) / 2
+            whole += np.abs(turned) if kind in ("roof", "back", "left", "right") else 0.0
+            missing += turned if kind in ("front", "ground") else 0.0
+    np.testing.assert_allclose(np.abs(areas).sum(axis=0), whole, rtol=1e-4)
+    np.testing.assert_allclose(areas.sum(axis=0) + missing, 0.0, atol=0.05)
+    walls = mesh.features.class_code[mesh.triangle_feature] == SemanticClass.WALL.code
+    assert np.abs(areas[~walls, 2]).sum() > 0.95 * np.abs(areas[:, 2]).sum()

@@ -9,13 +9,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.drive.build.bodies import Body
+from veduta.drive.build.body_mesh import houses_mesh
 from veduta.drive.build.meshes import CLASS_COLOURS
 from veduta.drive.build.outcome import Outcome, placed_meshes, with_filled
 from veduta.drive.build.segment import Textured
 from veduta.drive.record import DriveRecord, Shot
 from veduta.place.manifest import PlaceCamera, Start, Tour
 from veduta.place.mesh import Mesh
-from veduta.place.place import Cloud, ModelFile, Place, PlacedPart
+from veduta.place.place import Cloud, ModelFile, Place, PlacedPart, Standing
 
 PICTURES = "pictures"
 _EYE_EVERY_M, _SPEED_M_S = 2.0, 3.0
@@ -60,6 +62,16 @@ def drive_place(
         eye, target = line[0] + up, np.array([ahead[0], ahead[1], line[0][2]]) + up
         place.start = Start(eye=tuple(eye.tolist()), target=tuple(target.tolist()))
     return place
+
+
+def add_houses(place: Place, bodies: Sequence[Body], record: DriveRecord) -> None:
+    """What stands behind the facades, as one part; nothing where nothing is known of it."""
+    if not bodies:
+        return
+    middle = np.mean([one.front.mean(axis=0) for one in bodies], axis=0)
+    transform = np.eye(4)
+    transform[:3, 3] = middle + [0.0, 0.0, record.origin_m[2] - place.origin_m[2]]
+    place.add(houses_mesh(bodies, middle), Standing("Behind the facades", transform))
 
 
 def _again(load: Callable[[], Textured], identity: str, lift_m: float) -> Mesh:

@@ -40,11 +40,13 @@ class _Screen:
         out = frame.outward[middle]
         sign = 1.0 if frame.side == "left" else -1.0  # as one sees them from the street
         flat = points[:, :2] - start
-        return np.stack([sign * (flat @ along), flat @ out, points[:, 2] - frame.road_m[middle]], axis=1)
+        upward = points[:, 2] - frame.road_m[middle]
+        local = np.stack([sign * (flat @ along), flat @ out, upward], axis=1)
+        return np.asarray(local, dtype=np.float64)
 
     def flat(self, local: Floats) -> Floats:
         """(n, 2) metres to the right and up in the picture."""
-        return local[:, [0, 2]] + local[:, [1]] * np.array(_SLANT)
+        return np.asarray(local[:, [0, 2]] + local[:, [1]] * np.array(_SLANT), dtype=np.float64)
 
 
 def before_after(
@@ -58,11 +60,13 @@ def before_after(
         return None
     screen = _screen(textured)
     height, width = atlas.seen.shape
-    at = np.clip((atlas.uv(surface.pixel) * [width, height]).astype(np.int64), 0, [width - 1, height - 1])
+    uv = np.asarray(atlas.uv(surface.pixel), dtype=np.float64)
+    at = np.clip((uv * [width, height]).astype(np.int64), 0, [width - 1, height - 1])
     colours = textured.pixels[at[:, 1], at[:, 0]]
     unseen = (textured.plain & atlas.surface)[at[:, 1], at[:, 0]]
     colours = np.where(unseen[:, None], np.array(UNSEEN, dtype=np.uint8), colours)
-    after = _drawn(screen, [(surface.vertices, surface.triangles, colours)], atlas.uv(surface.pixel), textured)
+    made = (surface.vertices, surface.triangles, colours)
+    after = _drawn(screen, [made], uv, textured)
     pieces = [
         (mesh.positions_m.astype(np.float64) + middle, mesh.triangles.astype(np.int64), mesh.colours)
         for mesh in raw if mesh.colours is not None
