@@ -13,6 +13,7 @@ from veduta.facade.options import (
     DepthOptions,
     EyesOptions,
     FacadeOptions,
+    HouseOptions,
     ModelOptions,
     OntoOptions,
     RectifyOptions,
@@ -46,6 +47,7 @@ class FacadeCall:
     eyes: EyesOptions = field(default_factory=EyesOptions)
     rectify: RectifyOptions = field(default_factory=RectifyOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
+    houses: HouseOptions = field(default_factory=HouseOptions)
     model: ModelOptions = field(default_factory=ModelOptions)
     style: StyleOptions = field(default_factory=StyleOptions)
     onto: OntoOptions = field(default_factory=OntoOptions)
@@ -63,6 +65,7 @@ class FacadeCall:
             eyes=self.eyes,
             rectify=self.rectify,
             scale=self.scale,
+            houses=self.houses,
             model=self.model,
             style=self.style,
             onto=self.onto,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from veduta.facade.analyse_seen import analyse_seen
+from veduta.facade.analyse_seen import analyse_houses, analyse_seen
 from veduta.facade.appearance import class_scores, wall_colour
 from veduta.facade.bare_floors import doubt_railings
 from veduta.facade.between import doubt_unparted, look_between
@@ -14,6 +14,7 @@ from veduta.facade.eyes import Seen
 from veduta.facade.floors import split_floors
 from veduta.facade.ground import read_ground
 from veduta.facade.ground_windows import find_ground_windows, with_windows
+from veduta.facade.house_folders import with_numbers
 from veduta.facade.openings import find_openings, only_seen, read_columns
 from veduta.facade.options import FacadeOptions
 from veduta.facade.plausible import require_facade, storey_doubts
@@ -40,6 +41,34 @@ def analyse(
     if options.eyes.eyes == "learned":
         return analyse_seen(rectified, source, options, progress, seen)
     return analyse_plain(rectified, source, options, progress)
+
+
+def read_houses(
+    rectified: Rectified,
+    source: Source,
+    options: FacadeOptions,
+    progress: StepProgress = no_progress,
+    seen: Seen | None = None,
+) -> tuple[list[FacadeDocument], list[StepRecord]]:
+    """The documents of all houses of a picture, from left to right.
+
+    One where only one is asked for, where the front is named (by corners, by a width, by the wall
+    or the depths that it gets, by a style), or nothing is learned.
+    """
+    named = (
+        options.houses.houses == "one"
+        or options.eyes.eyes != "learned"
+        or rectified.record.method == "corners"
+        or options.wall is not None
+        or options.elevation is not None
+        or options.style.style is not None
+        or options.scale.width_m is not None
+    )
+    if named:
+        document, steps = analyse(rectified, source, options, progress, seen)
+        return [document], steps
+    documents, steps = analyse_houses(rectified, source, options, progress, seen)
+    return with_numbers(documents), steps
 
 
 def analyse_plain(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,7 +15,8 @@ from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
 from veduta.facade.floors import Floors, split_floors
 from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
 from veduta.facade.heads import with_heads
-from veduta.facade.options import FacadeOptions
+from veduta.facade.houses import find_party_walls
+from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.rectify import Rectified
 from veduta.facade.rows import gather_rows
@@ -60,6 +62,29 @@ class _Storeys:
     roof: RoofKind = "mansard"
 
 
+@dataclass(frozen=True)
+class _Front:
+    """What all houses of a picture are read from; `elements` are in pixels of what was seen."""
+
+    rectified: Rectified
+    source: Source
+    seen: Seen
+    evidence: Evidence
+    sky: Skyline
+    sides: Sides
+    elements: list[SeenElement]
+
+    @property
+    def wall(self) -> Float:
+        """(h, w) the chance of wall, at the size of the evidence."""
+        return self.seen.chance_at((self.evidence.width, self.evidence.height), *WALL)
+
+    def between(self, left: int, right: int) -> list[SeenElement]:
+        """The elements between two columns of the evidence, from the left one on."""
+        size = right - left, min(self.evidence.height, self.sides.bottom)
+        return in_crop(self.elements, self.evidence.px_per_rectified, left, size)
+
+
 def analyse_seen(
     rectified: Rectified,
     source: Source,
@@ -69,9 +94,75 @@ def analyse_seen(
 ) -> tuple[FacadeDocument, list[StepRecord]]:
     """Read a rectified facade with the learned eyes; NotFoundError where the image shows none.
 
-    seen: what these see in it, of a caller that has looked already.
+    All that stands between its sides is one house. seen: what the eyes see in it, of a caller that
+    has looked already.
     """
     steps: list[StepRecord] = []
+    front = _look_at(rectified, source, seen, steps, progress)
+    document = _read(front, front.sides, options, steps, progress)
+    progress("document", 1.0)
+    return document, steps
+
+
+def analyse_houses(
+    rectified: Rectified,
+    source: Source,
+    options: FacadeOptions,
+    progress: StepProgress = no_progress,
+    seen: Seen | None = None,
+) -> tuple[list[FacadeDocument], list[StepRecord]]:
+    """The same for each house of the picture, from left to right; all in one scale."""
+    steps: list[StepRecord] = []
+    front = _look_at(rectified, source, seen, steps, progress)
+    with timed_step(steps, "houses") as step:
+        inner, skyline = crop(front.evidence, front.sky, front.sides)
+        left, right = front.sides.left, front.sides.right
+        wall = front.wall[: inner.height, left:right]
+        walls = find_party_walls(inner, skyline, front.between(left, right), wall)
+        step.counts["houses"] = len(walls) + 1
+    borders = [left, *(left + wall.x for wall in walls), right]
+    spans = [replace(front.sides, left=a, right=b) for a, b in pairwise(borders)]
+    try:
+        documents = _read_each(front, spans, options, steps, progress)
+    except NotFoundError as error:
+        if len(spans) == 1:
+            raise
+        steps[-1].rejected.append(f"houses: one of {len(spans)} is no front ({error})")
+        documents = [_read(front, front.sides, options, steps, progress)]
+    progress("document", 1.0)
+    return documents, steps
+
+
+def _read_each(
+    front: _Front,
+    spans: list[Sides],
+    options: FacadeOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> list[FacadeDocument]:
+    """The widest house has the scale; the others have their widths in it."""
+    widest = max(spans, key=lambda span: span.right - span.left)
+    main = _read(front, widest, options, steps, progress)
+    found = []
+    for span in spans:
+        if span is widest:
+            found.append(main)
+            continue
+        wide_px = (span.right - span.left) / front.evidence.px_per_rectified
+        scale = ScaleOptions(width_m=max(0.5, wide_px * main.scale.metres_per_px))
+        others: list[StepRecord] = []
+        own = options.model_copy(update={"scale": scale})
+        found.append(_read(front, span, own, others, progress))
+    return found
+
+
+def _look_at(
+    rectified: Rectified,
+    source: Source,
+    seen: Seen | None,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> _Front:
     front = FrontParameters()
     with timed_step(steps, "eyes") as step:
         progress("eyes", 0.0)
@@ -87,18 +178,28 @@ def analyse_seen(
         sky = find_skyline(evidence)
         named = rectified.record.method == "corners"
         sides = whole(evidence) if named else _sides(evidence, sky, seen, elements, front)
-        inner, skyline = crop(evidence, sky, sides)
+        _, skyline = crop(evidence, sky, sides)
         step.counts |= {"skyline_row": skyline.level, "left": sides.left, "right": sides.right}
         if skyline.reason:
             step.rejected.append(f"sky: {skyline.reason}")
+    return _Front(rectified, source, seen, evidence, sky, sides, elements)
+
+
+def _read(
+    front: _Front,
+    sides: Sides,
+    options: FacadeOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> FacadeDocument:
+    """The document of what stands between the sides."""
+    inner, skyline = crop(front.evidence, front.sky, sides)
     with timed_step(steps, "floors") as step:
         progress("floors", 0.5)
-        size = inner.width, inner.height
-        elements = in_crop(elements, evidence.px_per_rectified, sides.left, size)
+        elements = front.between(sides.left, sides.right)
         if not elements:
             raise NotFoundError("a facade", "no window or door lies between its sides", REMEDY)
-        wall = seen.chance_at((evidence.width, evidence.height), *WALL)
-        wall = wall[: inner.height, sides.left : sides.right]
+        wall = front.wall[: inner.height, sides.left : sides.right]
         storeys = _under_gable(skyline, elements, wall, inner.height)
         storeys = storeys or _storeys(inner, skyline, elements, wall, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
@@ -107,19 +208,17 @@ def analyse_seen(
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)
         boxes = with_heads(boxes, inner.lab)
         step.counts["arched"] = sum(bool(box.outline) for box in boxes)
-        for kind in seen.kinds:
+        for kind in front.seen.kinds:
             step.counts[kind] = sum(box.kind == kind for box in boxes)
     with timed_step(steps, "document"):
         doubts = [*storeys.doubts]
         parse = Parse(
-            inner, sky, skyline, sides, storeys.floors, columns, boxes, doubts, storeys.gable,
+            inner, front.sky, skyline, sides, storeys.floors, columns, boxes, doubts, storeys.gable,
             storeys.roof,
         )  # fmt: skip
-        document = compose(parse, rectified, source, options)
-        notes = [*document.notes, *hidden_notes(seen, front)]
-        document = document.model_copy(update={"notes": notes})
-    progress("document", 1.0)
-    return document, steps
+        document = compose(parse, front.rectified, front.source, options)
+        notes = [*document.notes, *hidden_notes(front.seen, FrontParameters())]
+        return document.model_copy(update={"notes": notes})
 
 
 def _sides(

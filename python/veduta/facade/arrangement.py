@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from pydantic import JsonValue
 
 from veduta.facade.document import FacadeDocument
+from veduta.facade.house_folders import Beside
 from veduta.place.manifest import IDENTITY, Bounds, PlacePart, Start
 from veduta.place.place import Place
 
@@ -47,6 +48,14 @@ class Placed:
     low: Vector
     high: Vector
     stand: Stand | None = None
+    beside: tuple[Beside, ...] = ()
+
+    @property
+    def row(self) -> tuple[float, float]:
+        """From where to where all houses of its photo stand, along x of its own frame (m)."""
+        lows = [self.low[0], *(one.offset_m + one.low[0] for one in self.beside)]
+        highs = [self.high[0], *(one.offset_m + one.high[0] for one in self.beside)]
+        return min(lows), max(highs)
 
 
 def stands(document: FacadeDocument) -> dict[str, JsonValue]:
@@ -92,13 +101,23 @@ def arrange(buildings: Sequence[Placed], out: Path) -> Place:
     place = Place()
     at_m = 0.0
     for building in buildings:
-        shift_m = at_m - building.low[0] if place.parts else 0.0
-        transform = list(IDENTITY)
-        transform[12] = shift_m
-        place.lay(_part(building, tuple(transform), invented=len(buildings) > 1), out)
-        at_m = building.high[0] + shift_m + GAP_M
+        left, right = building.row
+        shift_m = at_m - left if place.parts else 0.0
+        invented = len(buildings) > 1
+        place.lay(_part(building, _along(shift_m), invented=invented), out)
+        for one in building.beside:
+            house = Placed(f"{building.name}/{one.folder}", one.low, one.high)
+            place.lay(_part(house, _along(shift_m + one.offset_m), invented=invented), out)
+        at_m = right + shift_m + GAP_M
     place.start = _start(buildings, at_m - GAP_M)
     return place
+
+
+def _along(shift_m: float) -> tuple[float, ...]:
+    """World from part: so far along the street."""
+    transform = list(IDENTITY)
+    transform[12] = shift_m
+    return tuple(transform)
 
 
 def _on_walls(buildings: Sequence[Placed], out: Path) -> Place:
@@ -124,7 +143,7 @@ def _moved(matrix: NDArray[np.float64], point: Vector) -> Vector:
 def _part(building: Placed, transform: tuple[float, ...], *, invented: bool) -> PlacePart:
     folder = building.name
     return PlacePart(
-        id=folder,
+        id=folder.replace("/", "-"),
         name=folder,
         model=f"{folder}/model.glb",
         city_model=f"{folder}/model.city.json",
@@ -138,7 +157,7 @@ def _part(building: Placed, transform: tuple[float, ...], *, invented: bool) -> 
 
 def _start(buildings: Sequence[Placed], right_m: float) -> Start:
     """Before the middle of the row, far enough to see a whole front."""
-    left_m = buildings[0].low[0]
+    left_m = buildings[0].row[0]
     height_m = max(building.high[2] for building in buildings)
     middle_m = (left_m + right_m) / 2
     distance_m = min(max(MIN_DISTANCE_M, 1.3 * height_m), MAX_DISTANCE_M)

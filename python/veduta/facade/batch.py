@@ -12,6 +12,7 @@ from pydantic import JsonValue
 
 from veduta.facade.arrangement import Placed, Vector, arrange, stand_of
 from veduta.facade.call import Call, Input, Kind, plan_call
+from veduta.facade.house_folders import beside_of
 from veduta.facade.job import Job, JobResult, memory_of, run_job
 from veduta.facade.label_pictures import labels_note
 from veduta.facade.load import DOCUMENT, load_document, load_photo
@@ -192,6 +193,7 @@ def _check_documents(call: Call, options: FacadeOptions) -> None:
         (options.rectify, mend),
         (options.scale, mend_scale),
         (options.style, mend),
+        (options.houses, mend),
         (options.onto, mend),
         (options.depth, mend),
     )
@@ -349,6 +351,7 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
             _vector(summary["bounds_min"]),
             _vector(summary["bounds_max"]),
             stand_of(summary),
+            beside_of(summary),
         )
         for name, summary in result.summaries.items()
     ]

@@ -76,6 +76,13 @@ class FacadeBox(_Record):
     height_m: float
 
 
+class House(_Record):
+    """Which of several houses of the photo this one is."""
+
+    number: int = Field(ge=1, description="from the left")
+    of: int = Field(ge=2)
+
+
 class Extent(_Record):
     """A region of the rectified image that the elements stand on (sky, roof, wall, other)."""
 
@@ -199,6 +206,9 @@ class FacadeDocument(_Record):
     classes: list[FacadeClass] = list(CLASSES)
     extents: list[Extent] = Field(description="painted in order, before the elements")
     elements: list[Element] = Field(description="painted in order")
+    house: House | None = Field(
+        default=None, description="which of the photo's houses it is, where it has several"
+    )
     roof: RoofKind = Field(
         default="mansard",
         description="what stands on the eaves; a gable's wall and windows are in the front's plane",

@@ -12,6 +12,7 @@ from pydantic import JsonValue
 from veduta.facade.adjusted import count_adjusted
 from veduta.facade.arrangement import stands
 from veduta.facade.call import Input
+from veduta.facade.house_folders import beside_told
 from veduta.facade.load import PHOTO
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.pipeline import Building, rebuild, reconstruct, write_building
@@ -70,6 +71,12 @@ def run_job(job: Job) -> JobResult:
     with writing_to(job.out):
         write_building(building, job.folder, steps, job.progress)
         _write_report(job.folder, image_report(building, options, steps))
+        for name, other in building.beside:
+            folder = job.folder / name
+            folder.mkdir()
+            own: list[StepRecord] = []
+            write_building(other, folder, own, job.progress)
+            _write_report(folder, image_report(other, options, own))
     return JobResult(summary=_summary(building, steps))
 
 
@@ -123,6 +130,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
         **stands(building.document),
         **{name: found[name] for name in kept},
         **count_adjusted(building.part.notes),
+        **beside_told(building.document, [(n, b.document, b.part) for n, b in building.beside]),
         "seconds": round(sum(step.seconds for step in steps), 3),
         "bounds_min": list(low),
         "bounds_max": list(high),

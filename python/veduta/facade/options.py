@@ -34,6 +34,15 @@ class RectifyOptions(Options):
     )
 
 
+class HouseOptions(Options):
+    """How many buildings a photo becomes."""
+
+    houses: Literal["auto", "one"] = Field(
+        default="auto",
+        description="whether several houses in one photo become several buildings, or one",
+    )
+
+
 class ScaleOptions(Options):
     """How pixels become metres."""
 
@@ -164,6 +173,7 @@ class FacadeOptions(Options):
     scale: ScaleOptions = ScaleOptions()
     model: ModelOptions = ModelOptions()
     style: StyleOptions = StyleOptions()
+    houses: HouseOptions = HouseOptions()
     onto: OntoOptions = OntoOptions()
     wall: Wall | None = None
     depth: DepthOptions = DepthOptions()

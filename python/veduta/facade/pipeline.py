@@ -14,17 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from veduta.facade.analyse import analyse
+from veduta.facade.analyse import read_houses
 from veduta.facade.cleared import BEFORE, before_png, hidden_kinds, load_before
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.eyes import Seen, look
+from veduta.facade.house_folders import house_folder, main_house
 from veduta.facade.load import DOCUMENT, PHOTO, load_document, load_photo
 from veduta.facade.model import Model, build_model
 from veduta.facade.options import FacadeOptions, ModelOptions, StyleOptions
 from veduta.facade.outputs import label_png, rasterise
 from veduta.facade.overlay import overlay, png
 from veduta.facade.quantities import QUANTITIES, quantities_csv
-from veduta.facade.rectify import rectify
+from veduta.facade.rectify import Rectified, rectify
 from veduta.facade.rule_outputs import write_rule_files
 from veduta.facade.seen_mouldings import seen_mouldings
 from veduta.facade.style_told import StyleTold
@@ -46,7 +47,8 @@ JPEG_QUALITY = 95
 class Building:
     """What one photo gave; `photo_jpeg` is the rectified photo as it is stored.
 
-    before: (h, w) what stands before the front, places in `cleared.KINDS`.
+    before: (h, w) what stands before the front, places in `cleared.KINDS`. beside: the
+    photo's other houses, each with the folder in that of this one that it gets.
     """
 
     document: FacadeDocument
@@ -55,6 +57,7 @@ class Building:
     before: NDArray[np.uint8]
     model: Model
     style: StyleTold | None = None
+    beside: tuple[tuple[str, Building], ...] = ()
 
     @property
     def part(self) -> Part:
@@ -83,21 +86,26 @@ def reconstruct(
         progress("look", 0.0)
         with timed_step(steps, "look"):
             seen = look(rectified.pixels)
-    document, analysis = analyse(rectified, _source(photo), options, progress, seen)
+    documents, analysis = read_houses(rectified, _source(photo), options, progress, seen)
     steps.extend(analysis)
-    document = _with_notes(document, (*photo.notes, *rectified.notes))
-    if seen is not None:
-        found = seen_mouldings(
-            seen, rectified.pixels, document.facade, document.scale.metres_per_px
-        )
-        document = document.model_copy(update={"mouldings": found})
+    said = (*photo.notes, *rectified.notes)
+    documents = [_with_mouldings(_with_notes(d, said), rectified, seen) for d in documents]
+    place = main_house(documents)
+    document = documents[place]
     document = _on_wall(_sized(document, options.model), options.wall)
     document = _measured(document, options, steps)
     jpeg, pixels = _stored(rectified.pixels)
     document, style = _styled(document, pixels, seen, options.style, steps, progress)
     before = np.zeros(pixels.shape[:2], np.uint8) if seen is None else hidden_kinds(seen)
     model = _model(document, pixels, before, part_id, steps, progress)
-    return Building(document, jpeg, pixels, before, model, style)
+    beside = []
+    for number, other in enumerate(documents, start=1):
+        if number - 1 != place:
+            own = _sized(other, options.model)
+            folder = house_folder(number)
+            built = _model(own, pixels, before, f"{part_id}-{folder}", [], progress)
+            beside.append((folder, Building(own, jpeg, pixels, before, built)))
+    return Building(document, jpeg, pixels, before, model, style, tuple(beside))
 
 
 def rebuild(
@@ -144,6 +152,17 @@ def write_building(
         pictures = {texture: name for name, texture in building.model.textures.items()}
         write_cityjson(building.part, folder / "model.city.json", pictures)
         step.counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*"))
+
+
+def _with_mouldings(
+    document: FacadeDocument, rectified: Rectified, seen: Seen | None
+) -> FacadeDocument:
+    """The document with the cornices and courses that the eyes see."""
+    if seen is None:
+        return document
+    scale = document.scale.metres_per_px
+    found = seen_mouldings(seen, rectified.pixels, document.facade, scale)
+    return document.model_copy(update={"mouldings": found})
 
 
 def _source(photo: Photo) -> Source:

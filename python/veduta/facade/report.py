@@ -15,6 +15,7 @@ from pydantic import JsonValue
 
 from veduta.facade.adjusted import count_adjusted
 from veduta.facade.document import FacadeDocument
+from veduta.facade.house_folders import beside_line
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
@@ -192,6 +193,7 @@ def summary_line(found: Mapping[str, Any]) -> str:
         f"{found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})",
         f"{share:.0f} % of the picture's width" if share < WHOLE_WIDTH else "",
         "corners doubtful" if found.get("corners_doubtful", False) else "",
+        beside_line(found),
     ]
     return ", ".join(part for part in said if part)
 

@@ -1,0 +1,110 @@
+"""Several houses of one photo: which one is the photo's own, and where the others lie and stand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+from pydantic import JsonValue
+
+from veduta.facade.document import FacadeDocument, House
+from veduta.place.part import Part
+
+BESIDE = "beside"
+"""In an item's summary: the other houses of the photo."""
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Another house of a photo: its folder in that of the first, its box in its own frame (m).
+
+    offset_m: how far right of the first one's frame its own begins.
+    """
+
+    folder: str
+    low: Vector
+    high: Vector
+    offset_m: float
+
+
+def house_folder(number: int) -> str:
+    """The folder of a house, by its number from the left."""
+    return f"house-{number}"
+
+
+def main_house(documents: Sequence[FacadeDocument]) -> int:
+    """The place of the widest house: its files lie in the photo's own folder."""
+    widths = [document.facade.width_px for document in documents]
+    return widths.index(max(widths))
+
+
+def with_numbers(documents: Sequence[FacadeDocument]) -> list[FacadeDocument]:
+    """The documents, each with its number, and a note where the others are."""
+    total = len(documents)
+    if total < 2:
+        return list(documents)
+    main = main_house(documents)
+    found = []
+    for place, document in enumerate(documents):
+        others = [house_folder(k + 1) for k in range(total) if k not in (place, main)]
+        if place != main:
+            others.insert(0, "the folder above")
+        note = f"house {place + 1} of {total} in the photo, from the left; the others: "
+        update = {
+            "house": House(number=place + 1, of=total),
+            "notes": [*document.notes, note + ", ".join(others)],
+        }
+        found.append(document.model_copy(update=update))
+    return found
+
+
+def beside_told(
+    main: FacadeDocument, others: Sequence[tuple[str, FacadeDocument, Part]]
+) -> dict[str, JsonValue]:
+    """What the summary of a photo says of its other houses; nothing where there are none."""
+    if not others:
+        return {}
+    scale = main.scale.metres_per_px
+    rows: list[JsonValue] = []
+    for folder, document, part in others:
+        low, high = part.bounds_m
+        rows.append(
+            {
+                "folder": folder,
+                "storeys": document.storeys,
+                "offset_m": (document.facade.x_px - main.facade.x_px) * scale,
+                "bounds_min": list(low),
+                "bounds_max": list(high),
+            }
+        )
+    return {BESIDE: rows}
+
+
+def beside_of(summary: Mapping[str, JsonValue]) -> tuple[Beside, ...]:
+    """The same, read back."""
+    rows = cast(list[dict[str, JsonValue]], summary.get(BESIDE) or [])
+    return tuple(
+        Beside(
+            str(row["folder"]),
+            _vector(row["bounds_min"]),
+            _vector(row["bounds_max"]),
+            cast(float, row["offset_m"]),
+        )
+        for row in rows
+    )
+
+
+def beside_line(summary: Mapping[str, JsonValue]) -> str:
+    """How many more houses the photo has, in a line; empty where none."""
+    rows = cast(list[dict[str, JsonValue]], summary.get(BESIDE) or [])
+    if not rows:
+        return ""
+    more = "1 more house" if len(rows) == 1 else f"{len(rows)} more houses"
+    return f"{more} of the photo: {', '.join(str(row['folder']) for row in rows)}"
+
+
+def _vector(value: JsonValue) -> Vector:
+    x, y, z = cast(list[float], value)
+    return (x, y, z)
