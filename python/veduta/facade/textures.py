@@ -25,6 +25,7 @@ from veduta.facade.photo_masks import (
     seen_mask,
 )
 from veduta.facade.side_wall import side_of
+from veduta.facade.sky_fringe import sky_with_fringe, without_sky
 from veduta.place.material import Colour, Texture
 
 # Longest edge of a texture (px).
@@ -39,6 +40,9 @@ _BRICK: Colour = (0.55, 0.36, 0.29)
 
 # Railings with this share of the wall's lightness are stone.
 _STONE_SHARE = 0.72
+
+# Sky shows at most so far below the eaves, as a share of the front: between gables and the like.
+_SKY_BELOW = 0.1
 
 Pixels = NDArray[np.uint8]
 
@@ -183,9 +187,11 @@ def _surface_layer(
     document: FacadeDocument, crop: Pixels, box: PixelBox, roof: Colour, before: NDArray[np.uint8]
 ) -> tuple[Cleared, Mask]:
     """The photo without what stands before wall and roof, and the mask of invented pixels."""
-    surface = crop.copy()
-    invented = extent_mask(document, box, "sky") | element_mask(document, box, "chimney")
-    surface[invented] = np.round(np.array(roof) * 255.0).astype(np.uint8)
+    sky = extent_mask(document, box, "sky")
+    rows = np.arange(len(crop))[:, None] + box.y0
+    above = rows < document.facade.y_px + _SKY_BELOW * document.facade.height_px
+    invented = (sky_with_fringe(crop, sky) & above) | element_mask(document, box, "chimney")
+    surface = without_sky(crop, invented, roof)
     cleared = clear_surface(document, surface, box, before)
     return cleared, invented | cleared.filled
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from veduta.facade.cleared.kinds import KINDS
 from veduta.facade.cleared.light import even_light
 from veduta.facade.cleared.repeats import own_repeats
-from veduta.facade.document import FacadeDocument
+from veduta.facade.cleared.shadows import shadows_below
+from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.photo_masks import Mask, PixelBox, element_mask, pixels_of
 from veduta.surfaces import Repeated, fill_by_repeats
 
@@ -51,6 +52,14 @@ def clear_surface(
     """
     _, storey = _repeats(document, box)
     kinds = _with_balconies(document, box, before, storey)
+    plain = kinds == 0
+    for class_ in ("window", "door", "shop"):
+        plain &= ~element_mask(document, box, class_)
+    zones = _zones(document, box)
+    plain &= (zones[0] == _UPPER)[:, None]
+    balconies = [pixels_of(e, box) for e in document.elements if e.class_ == "balcony"]
+    shadow = shadows_below(crop, plain, balconies, storey)
+    kinds[shadow & (kinds == 0)] = KINDS.index("balcony")
     holes = kinds > 0
     shares = {
         name: float((kinds == place).mean())
@@ -68,7 +77,7 @@ def clear_surface(
     wall = ~holes
     for class_ in ("window", "door", "shop"):
         wall &= ~element_mask(document, box, class_)
-    pixels, evened = even_light(pixels, wall, _zones(document, box)[1], storey)
+    pixels, evened = even_light(pixels, wall, zones[1], storey)
     return Cleared(pixels, holes, shares, copied, evened, notes)
 
 
@@ -110,10 +119,15 @@ def _with_balconies(
         if mask.any():
             kinds[cv2.dilate(mask, kernel) > 0] = place
     for element in document.elements:
-        if element.class_ == "balcony":
+        if element.class_ == "balcony" and not _is_guess_in_roof(element, document):
             spread = BALCONY_SPREAD * element.height_px
             kinds[pixels_of(element, box, spread)] = KINDS.index("balcony")
     return kinds
+
+
+def _is_guess_in_roof(element: Element, document: FacadeDocument) -> bool:
+    """Whether a balcony is in doubt and lies in the roof: it would take a dormer with it."""
+    return element.is_doubtful and element.y_px + 0.5 * element.height_px < document.facade.y_px
 
 
 def _zones(document: FacadeDocument, box: PixelBox) -> tuple[NDArray[np.int64], slice]:
