@@ -163,8 +163,14 @@ def _within_ring(sheet: Sheeted, way: Way) -> Drawn:
     return _noted(_likeliest_way(sheet.without(found, ring)))
 
 
+def _drawn_otherwise(sheet: Sheeted, way: Way) -> bool:
+    """Whether the walls of a sheet look drawn in another way than it was read with its fence."""
+    first = next(ways_drawn(sheet.cleaned, sheet.texts, sheet.flights), None)
+    return first is not None and first.drawing != way.drawing
+
+
 def _noted(drawn: Drawn) -> Drawn:
-    return replace(drawn, notes=(PLOT_NOTE, *drawn.notes))
+    return replace(drawn, notes=(PLOT_NOTE, *(one for one in drawn.notes if one != PLOT_NOTE)))
 
 
 def likeliest(
@@ -206,14 +212,29 @@ def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> floa
 
 def _read(sheeted: Sheeted, way: Way, *, thin: bool = False) -> Drawn:
     """One reading; thin: rooms with a name are closed along any lines around them."""
-    cleaned, texts, known = sheeted.cleaned, sheeted.texts, sheeted.known
+    cleaned = sheeted.cleaned
     found = find_walls(cleaned, way)
     fence = [found.pieces[one] for one in sorted(fence_pieces(found.pieces, found.thin_px))]
-    if fence and not sheeted.fenced:
-        # Without it the walls of the house may look drawn in another way.
-        return _noted(_likeliest_way(sheeted.without(found, fence)))
-    if fence:
-        cleaned, found = without_fence(cleaned, found, fence)
+    if not fence:
+        return _read_found(sheeted, found, way, thin)
+    within = sheeted.without(found, fence)
+    inner = without_fence(cleaned, found, fence)[1]
+    drawn = _noted(_read_found(within, inner, way, thin))
+    if sheeted.fenced or thin or not _drawn_otherwise(within, way):
+        return drawn
+    labels = room_labels(sheeted.texts, indoors=True)
+    other = _noted(_likeliest_way(within))
+    return max(drawn, other, key=lambda one: _by_names(one, labels))
+
+
+def _by_names(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> tuple[float, int]:
+    """How well a reading agrees with the names on the sheet: more is better."""
+    return _with_own_rooms(drawn, labels), -abs(len(drawn.rooms) - len(labels))
+
+
+def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
+    """The openings and rooms of these walls."""
+    cleaned, texts, known = sheeted.cleaned, sheeted.texts, sheeted.known
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     if known is None:
         found = with_bends(found, sheet.faint)
@@ -242,7 +263,7 @@ def _read(sheeted: Sheeted, way: Way, *, thin: bool = False) -> Drawn:
     axes = whole.axes if told else with_unbroken(whole.axes, sheet, found.thin_px, sky)
     axes = settled(axes, found.thin_px, sky)
     laid = known.settle(axes) if known else axes
-    return drawn_from(cleaned, found, laid, texts, [*([PLOT_NOTE] if fence else []), *whole.notes])
+    return drawn_from(cleaned, found, laid, texts, whole.notes)
 
 
 def without_fence(cleaned: Cleaned, found: Found, fence: Sequence[Piece]) -> tuple[Cleaned, Found]:

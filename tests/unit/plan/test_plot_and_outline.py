@@ -6,11 +6,14 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from shapely.geometry import Point
+from shapely.geometry import Point, Polygon
 
 from veduta.plan.document import Text
 from veduta.plan.drawn import Drawn
 from veduta.plan.reading import PLOT_NOTE, read_storey
+from veduta.plan.walls.fence import fence_pieces
+from veduta.plan.walls.pieces import Piece
+from veduta.synthetic.plans.brochure import brochure_page
 
 Pixels = NDArray[np.uint8]
 
@@ -57,16 +60,23 @@ def test_a_ring_of_walls_around_the_house_is_no_room() -> None:
 
 
 def test_a_car_beside_the_fence_is_no_part_of_house_or_fence() -> None:
-    page = np.full((800, 1100, 3), 255, np.uint8)
-    _house(page, 240, 240)
-    alone = read_storey(page)
-    cv2.rectangle(page, (60, 60), (1040, 740), (0, 0, 0), 10)
-    cv2.rectangle(page, (1030, 500), (1050, 650), (255, 255, 255), -1)
-    for y in (300, 380):  # its two panes, dark
-        cv2.rectangle(page, (90, y), (165, y + 12), (0, 0, 0), -1)
-    walled = read_storey(page)
-    assert PLOT_NOTE in walled.notes
-    assert _sized(walled) == pytest.approx(_sized(alone), rel=0.02)
+    """Two broad strokes nearer to the fence than to the house, which stands free for all that."""
+    house = [
+        ((300, 300), (700, 300)), ((700, 300), (700, 600)), ((300, 600), (450, 600)),
+        ((550, 600), (700, 600)), ((300, 300), (300, 600)), ((500, 300), (500, 600)),
+    ]  # fmt: skip
+    ring = [
+        ((60, 60), (940, 60)), ((940, 60), (940, 840)), ((60, 840), (400, 840)),
+        ((600, 840), (940, 840)), ((60, 60), (60, 840)),
+    ]  # fmt: skip
+    car = [((100, 400), (180, 400)), ((100, 480), (180, 480))]
+    pieces = [
+        Piece(np.array(a, float), np.array(b, float), thick)
+        for some, thick in ((house, 14.0), (ring, 12.0), (car, 20.0))
+        for a, b in some
+    ]
+    assert fence_pieces(pieces, 12.0) == {6, 7, 8, 9, 10}
+    assert fence_pieces(pieces[:6] + pieces[11:], 12.0) == set()
 
 
 def test_a_house_that_is_drawn_otherwise_than_the_ring_around_it_is_found_within() -> None:
@@ -105,19 +115,21 @@ def test_a_room_that_is_outlined_by_a_thin_line_is_closed_by_it() -> None:
 
 
 def test_a_room_behind_panes_that_slide_past_each_other_is_closed_by_them() -> None:
-    """Two hair lines, a little over half of the side each, with a slit between where they pass."""
-    page = np.full((1000, 1000, 3), 255, np.uint8)
-    _house(page, 150, 500)
-    for x in (157, 613):  # walls up to the panes, with a stub beyond the corner
-        cv2.line(page, (x, 500), (x, 200), (0, 0, 0), 14)
-    for start, end in (((150, 200), (190, 200)), ((580, 200), (620, 200))):
-        cv2.line(page, start, end, (0, 0, 0), 14)
-    cv2.line(page, (190, 202), (400, 202), (0, 0, 0), 2)
-    cv2.line(page, (370, 197), (580, 197), (0, 0, 0), 2)
-    texts = [written("Wohnen", 380, 350), written("Zimmer", 280, 700), written("Bad", 600, 650)]
-    drawn = read_storey(page, texts)
+    """The kitchen of a terraced house: its back is two hair lines with a slit where they pass."""
+    page, (truth, _) = brochure_page(41_002)
+    (kitchen,) = [one for one in truth.storey.rooms if one.use == "kitchen"]
+    names = {"kitchen": "Kitchen", "living": "Lounge", "dining": "Dining Room", "hall": "Hall"}
+    to_px = truth.px_from_m
+    ends = np.array([one.start_m for one in truth.storey.walls]) @ to_px[:2, :2].T + to_px[:2, 2]
+    low, high = (ends.min(axis=0) - 40).astype(int), (ends.max(axis=0) + 40).astype(int)
+    middles = {one.use: Polygon(one.outline_m).centroid for one in truth.storey.rooms}
+    texts = [
+        written(names[use], *(to_px[:2] @ (at.x, at.y, 1.0) - low)) for use, at in middles.items()
+    ]
+    drawn = read_storey(page[low[1] : high[1], low[0] : high[0]], texts)
     to_clean = drawn.cleaned.clean_from_scan
-    place = Point(*(to_clean[:2, :2] @ (380, 350) + to_clean[:2, 2]))
+    x, y = to_px[:2] @ (middles["kitchen"].x, middles["kitchen"].y, 1.0) - low
+    place = Point(*(to_clean[:2, :2] @ (x, y) + to_clean[:2, 2]))
     (room,) = [one for one in drawn.rooms if one.polygon().contains(place)]
-    size = abs(float(np.linalg.det(to_clean[:2, :2])))
-    assert room.area_px2 / size == pytest.approx(442 * 293, rel=0.05)
+    size = abs(float(np.linalg.det(to_clean[:2, :2]))) / truth.metres_per_px**2
+    assert room.area_px2 / size == pytest.approx(kitchen.area_m2, rel=0.05)

@@ -31,7 +31,7 @@ class PlotRule:
     along: float = 3.0
     free: float = 3.0
     house: float = 0.5
-    inside: tuple[float, float] = (0.2, 0.92)
+    inside: tuple[float, float] = (0.1, 0.92)
     closed: float = 0.5
     things: float = 0.15
 
@@ -40,10 +40,7 @@ PLOT = PlotRule()
 
 
 def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT) -> set[int]:
-    """Indices of the pieces around a plot with a house in it, and of things beside that house.
-
-    None without such a fence.
-    """
+    """Indices of the pieces that stand around a plot with a house in it; none without one."""
     lines = [LineString([one.start, one.end]) for one in pieces]
     if len(lines) < 5:
         return set()
@@ -55,7 +52,7 @@ def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT)
         if all(border.contains(lines[other]) for other in group)
         for index in group
     }
-    house = _house(groups, lines, fence, rule)
+    house = _house(groups, lines, fence, rule.free * thin_px, rule)
     if not fence or not house:
         return set()
     walls = unary_union([lines[index] for index in house])
@@ -68,7 +65,7 @@ def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT)
     beside = walls.buffer(rule.along * thin_px).intersection(hull.boundary).length
     sized = sized and beside >= rule.closed * hull.boundary.length
     around = enough and sized and free >= rule.free * thin_px
-    return set(range(len(lines))) - house if around else set()
+    return fence if around else set()
 
 
 def ring_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT) -> set[int]:
@@ -91,18 +88,28 @@ def ring_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT) 
 
 
 def _house(
-    groups: Sequence[set[int]], lines: Sequence[LineString], fence: set[int], rule: PlotRule
+    groups: Sequence[set[int]],
+    lines: Sequence[LineString],
+    fence: set[int],
+    near_px: float,
+    rule: PlotRule,
 ) -> set[int]:
-    """The pieces that hang together in large groups, and what lies among those.
+    """The pieces that hang together in large groups, and what lies among or near those.
 
-    What else stands on the plot, a car or a shed, is no part of it.
+    The sheet lies straight: what is between two openings at a corner of a house is within the
+    upright box around its other walls. What else stands on the plot, a car or a shed, is no part
+    of the house.
     """
     rest = [group - fence for group in groups if group - fence]
-    sizes = [sum(lines[index].length for index in group) for group in rest]
-    least = rule.things * max(sizes, default=0.0)
-    large = [group for group, size in zip(rest, sizes, strict=True) if size >= least]
-    hull = unary_union([lines[index] for group in large for index in group]).convex_hull
-    return {index for group in rest for index in group if hull.intersects(lines[index])}
+    whole = [unary_union([lines[index] for index in group]) for group in rest]
+    least = rule.things * max((one.length for one in whole), default=0.0)
+    chosen = {place for place, one in enumerate(whole) if one.length >= least}
+    while True:
+        around = unary_union([whole[place] for place in chosen]).envelope.buffer(near_px)
+        more = {place for place, one in enumerate(whole) if around.intersects(one)}
+        if more <= chosen:
+            return {index for place in chosen for index in rest[place]}
+        chosen |= more
 
 
 def _groups(
