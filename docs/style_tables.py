@@ -16,6 +16,8 @@ def attribute_rows(style: str) -> list[tuple[str, str, str, str]]:
     rows = []
     for above, name, default in _ATTRIBUTE.findall(text):
         notes = dict(_ANNOTATION.findall(above))
+        if "Hidden" in notes:
+            continue
         shown = f"`{' '.join(default.split())}`"
         rows.append((f"`{name}`", _takes(notes, default), shown, _unquoted(notes["Description"])))
     return rows

@@ -10,7 +10,6 @@ import numpy as np
 from pictures import small_jpeg
 from PIL import Image
 
-from veduta import _core
 from veduta.grammar.building import build_part
 from veduta.grammar.derivation import derive, parse
 from veduta.grammar.rules import style_names
@@ -24,8 +23,20 @@ from veduta.synthetic.scene import RayScene
 IMAGES = Path(__file__).parent / "images"
 SIZE_PX = (960, 600)
 MAX_BYTES = 150_000
-GROUND = 'Lot --> set(material.name, "ground") color("#8f8d88")'
+GROUND = """
+@StartRule
+Ground --> set(material.name, "ground") color("#8f8d88")
+Road --> set(material.name, "ground") color("#6b6b6e") texture("builtin/textures/asphalt")
+Pavement -->
+    set(material.name, "ground")
+    color("#b9b4aa")
+    texture("builtin/textures/paving")
+    extrude(world.up, 0.12)
+    comp(f) { side : Kerb | all : Paved. }
+Kerb --> color("#a5a29a") texture("builtin/textures/stone")
+"""
 REACH_M = 300.0
+PAVEMENT_M, ROAD_M = 2.6, 7.0
 LENS = Lens(blur_px=0.3, vignetting=0.05, noise=0.0)
 Point = tuple[float, float, float]
 
@@ -51,7 +62,7 @@ SCENES = {
     "restauration": Scene((13, 16, 15), 12, (0, -25, 4), (18, 0, 8.5)),
     "victorian": Scene((12, 18, 12), 10, (-1, -16, 3), (13, 0, 5), first_seed=5),
     "gothic-revival": Scene((25, 17, 20), 15, (-7, -25, 2.5), (18, 0, 8.6), gap_m=6, first_seed=9),
-    "modern-slab": Scene((42, 26, 30), 12, (-12, -40, 5), (25, 0, 12.5), gap_m=10, first_seed=3),
+    "modern-slab": Scene((42, 26, 30), 12, (-9, -31, 4), (21, 0, 9.5), gap_m=10, first_seed=3),
     "suburban-house": Scene((20, 21, 20), 27, (2, -12, 3.5), (20, 8, 2.6), first_seed=4),
 }
 
@@ -67,7 +78,7 @@ def main() -> None:
 
 
 def _picture(style: str, scene: Scene) -> Image.Image:
-    parts = [(part, np.eye(4)) for part in (*_buildings(style, scene), _ground())]
+    parts = [(part, np.eye(4)) for part in (*_buildings(style, scene), *_ground())]
     camera = look_at(scene.eye_m, scene.target_m, SIZE_PX, scene.focal * SIZE_PX[0])
     light = daylight(3, sunny=True, azimuth_rad=-2.1, elevation_rad=0.75)
     return Image.fromarray(develop(render(RayScene(parts), camera, light, samples=2), LENS, 0))
@@ -85,13 +96,22 @@ def _buildings(style: str, scene: Scene) -> list[Part]:
     return parts
 
 
-def _ground() -> Part:
-    """The street; a little below the lots, whose lawns lie on it."""
-    lot = [_rectangle(-REACH_M, -REACH_M, REACH_M, REACH_M, -0.02)]
-    (derived,) = _core.GrammarRules([("ground.cga", GROUND)]).derive([lot], [0])
-    if not isinstance(derived, _core.DerivedLot):
-        raise SystemExit(f"the street was not derived: {derived}")
-    return build_part(derived, "ground", {})
+def _ground() -> list[Part]:
+    """The street before the lots: a carriageway between two pavements, on level ground."""
+    rules, low = parse(GROUND), -0.14
+    near, far = -PAVEMENT_M, -PAVEMENT_M - ROAD_M
+    pieces = {
+        "ground": ("Ground", -REACH_M, REACH_M, low - 0.02),
+        "road": ("Road", far, near, low),
+        "near": ("Pavement", near, 0.0, low),
+        "far": ("Pavement", far - PAVEMENT_M, far, low),
+    }
+    parts = []
+    for name, (start, south, north, z) in pieces.items():
+        lot = _rectangle(-REACH_M, south, REACH_M, north, z)
+        columns = derive(rules, [lot], start=start).columns()
+        parts.append(build_part(columns, name, {}, rules.textures))
+    return parts
 
 
 def _rectangle(left: float, low: float, right: float, high: float, z: float) -> list[Point]:

@@ -280,14 +280,19 @@ class Derivation:
         seed: int,
         *,
         start: str | None = None,
-        attributes: dict[str, bool | float | str] | None = None,
+        attributes: dict[str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]]
+        | None = None,
         edits: Sequence[
             tuple[
                 Sequence[int],
                 str | None,
                 bool,
                 Sequence[int | None],
-                Sequence[tuple[str, bool | float | str]],
+                Sequence[
+                    tuple[
+                        str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]
+                    ]
+                ],
             ]
         ]
         | None = None,
@@ -304,7 +309,11 @@ class Derivation:
                 str | None,
                 bool,
                 Sequence[int | None],
-                Sequence[tuple[str, bool | float | str]],
+                Sequence[
+                    tuple[
+                        str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]
+                    ]
+                ],
             ]
         ],
     ) -> bool:
@@ -454,11 +463,12 @@ class DerivedLots:
         place: tuple[float, float, float],
         classes: Sequence[str],
         kinds: Sequence[str],
+        textures: Sequence[tuple[str, tuple[float, float, float]]] = ...,
         volumes: DerivedLots | None = None,
-    ) -> tuple[str, list[tuple[int, str, str]], str]:
-        """Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
+    ) -> tuple[str, list[tuple[int, str, str, str]], str]:
+        """Geometry, installations (class, rule, colour, geometry) and vertices (mm) of a lot at its place, as
         texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
-        `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
+        `textures` have their mean colours (sRGB). `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
         geometries of LoD 1.2 and 2.2.
         """
     def tile(
@@ -484,7 +494,9 @@ def derive_lots(
     seeds: Sequence[int],
     *,
     start: str | None = None,
-    attributes: Sequence[dict[str, bool | float | str]],
+    attributes: Sequence[
+        dict[str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]]
+    ],
     edits: Sequence[
         Sequence[
             tuple[
@@ -492,7 +504,11 @@ def derive_lots(
                 str | None,
                 bool,
                 Sequence[int | None],
-                Sequence[tuple[str, bool | float | str]],
+                Sequence[
+                    tuple[
+                        str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]
+                    ]
+                ],
             ]
         ]
     ],
@@ -554,13 +570,22 @@ class GrammarRules:
     def notes(self) -> str:
         """What is built otherwise than the rules say, with its places; empty where nothing is."""
     @property
+    def asks_place(self) -> bool:
+        """Whether they ask where shapes lie on Earth."""
+    @property
     def asks_files(self) -> tuple[bool, bool]:
         """Whether the rules ask which files there are, and whether they read some."""
     def add_files(
-        self, names: Sequence[str], texts: dict[str, str], pictures: dict[str, tuple[float, float]]
+        self,
+        names: Sequence[str],
+        texts: dict[str, str],
+        pictures: dict[str, tuple[float, float]],
+        metadata: dict[
+            str, dict[str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]]
+        ] = ...,
     ) -> None:
         """Makes the files of a project known: their names, the content of those that are text, and the
-        width and height of those that are pictures (px).
+        width and height of those that are pictures (px), and what assets say besides, by its keys.
         """
     def add_asset(
         self,
@@ -597,7 +622,10 @@ class GrammarRules:
         seeds: Sequence[int],
         *,
         start: str | None = None,
-        attributes: Sequence[dict[str, bool | float | str]] | None = None,
+        attributes: Sequence[
+            dict[str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]]
+        ]
+        | None = None,
         edits: Sequence[
             Sequence[
                 tuple[
@@ -605,7 +633,12 @@ class GrammarRules:
                     str | None,
                     bool,
                     Sequence[int | None],
-                    Sequence[tuple[str, bool | float | str]],
+                    Sequence[
+                        tuple[
+                            str,
+                            bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str],
+                        ]
+                    ],
                 ]
             ]
         ]
@@ -930,7 +963,9 @@ def derive_surroundings(
     seeds: Sequence[int],
     *,
     start: str | None = None,
-    attributes: Sequence[dict[str, bool | float | str]],
+    attributes: Sequence[
+        dict[str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]]
+    ],
     edits: Sequence[
         Sequence[
             tuple[
@@ -938,7 +973,11 @@ def derive_surroundings(
                 str | None,
                 bool,
                 Sequence[int | None],
-                Sequence[tuple[str, bool | float | str]],
+                Sequence[
+                    tuple[
+                        str, bool | float | str | Sequence[bool] | Sequence[float] | Sequence[str]
+                    ]
+                ],
             ]
         ]
     ],

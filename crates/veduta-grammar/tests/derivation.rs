@@ -292,8 +292,8 @@ fn what_does_not_derive_is_said_before_anything_is_derived() {
         ["`reduceGeometry` does not derive: the shape stays as it is"]
     );
     assert_eq!(
-        wrong("Lot --> s(readMaterial(\"a\"), 1, 1)"),
-        ["`readMaterial` does not derive: it is taken for 0"]
+        wrong("Lot --> setMaterial(readMaterial(\"a.cgamat\"))"),
+        ["`readMaterial` reads MTL files: of others it tells nothing, and shapes keep their material"]
     );
     assert_eq!(wrong("Lot --> s(abs(1), 1, 1)"), [""; 0]);
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use veduta_grammar::engine::{Files, Options};
+use veduta_grammar::engine::{Files, Options, Value};
 
 use super::support::{said, said_with, tree};
 
@@ -66,13 +66,52 @@ fn project() -> Options {
     let table = "name;height\nhouse;9.5\ntower;40\n";
     let files = Files {
         names: names.iter().map(|&name| name.into()).collect(),
-        texts: HashMap::from([("heights.csv".into(), table.into())]),
+        texts: HashMap::from([
+            ("heights.csv".into(), table.into()),
+            ("a/wall.mtl".into(), MATERIAL.into()),
+        ]),
         pictures: HashMap::from([("wall.jpg".into(), [400.0, 200.0])]),
+        metadata: HashMap::from([(
+            "a/tree.glb".into(),
+            HashMap::from([("species".into(), Value::text("Tilia"))]),
+        )]),
     };
     Options {
         files: Arc::new(files),
         ..Options::default()
     }
+}
+
+const MATERIAL: &str = "# of a wall\nnewmtl brick\nKd 0.5 0.25 0\nd 0.5\nNs 20\n\
+                        map_Kd -s 2 2 2 red.jpg\nnewmtl another\nKd 1 1 1\n";
+
+#[test]
+fn materials_and_metadata_of_files() {
+    let told = |text: &str| said_with(&format!("Lot --> {text}"), &project());
+    let read = "setMaterial(readMaterial(\"/a/wall.mtl\"))";
+    let names = ["name", "color.g", "opacity", "shininess", "colormap"];
+    let names = names
+        .map(|name| format!(" print(material.{name})"))
+        .concat();
+    assert_eq!(
+        told(&format!("{read}{names}")),
+        ["brick", "0.25", "0.5", "20", "a/red.jpg"]
+    );
+    let kept =
+        "color(\"#102030\") setMaterial(readMaterial(\"a/wall.cgamat\")) print(material.color.rgb)";
+    assert_eq!(told(kept), ["#102030"]);
+    let species = |key: &str, default: &str| {
+        told(&format!(
+            "print(assetMetadata(\"a/tree.glb\", \"{key}\", {default}))"
+        ))
+    };
+    assert_eq!(species("species", "\"\""), ["Tilia"]);
+    assert_eq!(species("species", "4"), ["4"]);
+    assert_eq!(species("age", "4"), ["4"]);
+    assert_eq!(
+        told("print(assetMetadata(\"none.glb\", \"age\", 5))"),
+        ["5"]
+    );
 }
 
 #[test]

@@ -144,6 +144,7 @@ const OPERATIONS: &[&str] = &[
     "subtract(swap) { r(#, #, #) primitiveCube() }",
     "t(#, '#, #)",
     "tag(\"ab\")",
+    "setTagsFromEdgeAttrs()",
     "taper(#)",
     "texture(\"a.jpg\")",
     "tileUV(0, ~#, #)",

@@ -9,6 +9,7 @@ use veduta_geometry::{triangulate_sound, PolygonSet};
 
 use crate::derived_lot::Derived;
 use crate::flat::Flat;
+use crate::tiles::Textures;
 use crate::volumes::{block, ground, VolumeFace};
 
 const STEPS_PER_M: f64 = 1000.0;
@@ -20,8 +21,8 @@ const LEVEL: f64 = 0.7;
 pub(crate) struct CityText {
     /// A MultiSurface or a Solid; empty where all surfaces are installations.
     pub body: String,
-    /// Class, rule and geometry of each.
-    pub installations: Vec<(u8, String, String)>,
+    /// Class, rule, colour (sRGB, as `#rrggbb`) and geometry of each.
+    pub installations: Vec<(u8, String, String, String)>,
     /// Three whole numbers each, as a JSON array.
     pub vertices: String,
 }
@@ -46,22 +47,26 @@ impl Grid {
 
 struct Face {
     feature: usize,
+    /// sRGB, of 255.
+    colour: [u8; 3],
     rings: Vec<Vec<u32>>,
     normal_z: f64,
 }
 
 /// The texts of a building at its place (m, z up). `kinds` has the semantic surface of each class,
-/// "" for what is an installation; `code` the class of a name. `volume`: the building at its lowest
+/// "" for what is an installation; `code` the class of a name; `textures` their mean colours.
+/// Faces of a surface that differ in colour are semantic surfaces of their own. `volume`: the building at its lowest
 /// level of detail, for further geometries of LoD 1.2 and 2.2 where it gives closed volumes.
 pub(crate) fn city(
     lot: &Derived,
     volume: Option<&Derived>,
     place: [f64; 3],
     kinds: &[String],
+    textures: &Textures,
     code: impl Fn(&str) -> u8,
 ) -> Result<CityText, String> {
     let mut grid = Grid::default();
-    let faces = faces(lot, place, &mut grid)?;
+    let faces = faces(lot, place, textures, &mut grid)?;
     let classes: Vec<u8> = lot.surfaces.class.iter().map(|name| code(name)).collect();
     let kind = |feature: usize| kinds[usize::from(classes[feature])].as_str();
     let mut body = Vec::new();
@@ -73,13 +78,13 @@ pub(crate) fn city(
             body.push(face);
         }
     }
-    let mut rows: HashMap<usize, usize> = HashMap::new();
+    let mut rows: HashMap<(usize, [u8; 3]), usize> = HashMap::new();
     let mut surfaces = Vec::new();
     let values: Vec<usize> = body
         .iter()
         .map(|face| {
-            *rows.entry(face.feature).or_insert_with(|| {
-                surfaces.push(surface(lot, face.feature, kind(face.feature)));
+            *rows.entry((face.feature, face.colour)).or_insert_with(|| {
+                surfaces.push(surface(lot, face, kind(face.feature)));
                 surfaces.len() - 1
             })
         })
@@ -91,7 +96,8 @@ pub(crate) fn city(
     let installations = installations.map(|(feature, all)| {
         let (surfaces, values) = by_direction(all);
         let text = geometry(all, &surfaces, &values);
-        (classes[feature], lot.names[feature].clone(), text)
+        let colour = hexed(all[0].colour);
+        (classes[feature], lot.names[feature].clone(), colour, text)
     });
     let installations = installations.collect();
     let mut own = Vec::new();
@@ -99,7 +105,7 @@ pub(crate) fn city(
         own.push(geometry(&body, &surfaces, &values));
     }
     if let Some(volume) = volume {
-        own.extend(volumes(volume, place, kinds, &code, &mut grid)?);
+        own.extend(volumes(volume, place, kinds, textures, &code, &mut grid)?);
     }
     Ok(CityText {
         body: own.join(","),
@@ -109,7 +115,12 @@ pub(crate) fn city(
 }
 
 /// The sound polygons, on whole millimetres; what collapses there is left out.
-fn faces(lot: &Derived, place: [f64; 3], grid: &mut Grid) -> Result<Vec<Face>, String> {
+fn faces(
+    lot: &Derived,
+    place: [f64; 3],
+    textures: &Textures,
+    grid: &mut Grid,
+) -> Result<Vec<Face>, String> {
     let flat = Flat::of(&lot.packed)?;
     let set = PolygonSet::of_any_rings(&flat.positions, &flat.rings, &flat.polygons);
     let set = set.map_err(|error| error.to_string())?;
@@ -144,6 +155,7 @@ fn faces(lot: &Derived, place: [f64; 3], grid: &mut Grid) -> Result<Vec<Face>, S
         let leaf = flat.feature[polygon] as usize;
         found.push(Face {
             feature: lot.surfaces.of_feature[leaf] as usize,
+            colour: colour(lot, &flat, polygon, textures),
             rings: rings
                 .map(|ring| ring.into_iter().map(&mut number).collect())
                 .collect(),
@@ -153,14 +165,38 @@ fn faces(lot: &Derived, place: [f64; 3], grid: &mut Grid) -> Result<Vec<Face>, S
     Ok(found)
 }
 
-fn surface(lot: &Derived, feature: usize, kind: &str) -> String {
+/// The colour of a polygon, with the mean colour of its texture.
+fn colour(lot: &Derived, flat: &Flat<'_>, polygon: usize, textures: &Textures) -> [u8; 3] {
+    let packed = &lot.packed;
+    let leaf = flat.feature[polygon] as usize;
+    let look = &packed.looks[packed.feature_look[leaf] as usize];
+    let own = packed.polygon_feature.len();
+    let of_asset = polygon.checked_sub(own).map(|row| flat.slots[row]);
+    let seen = match of_asset {
+        Some((asset, slot)) => {
+            let slot = &packed.assets[asset as usize].slots()[slot as usize];
+            let texture = slot.texture.as_ref().map(|(name, _)| name.as_ref());
+            textures.seen_as(slot.colour_in(look.colour), texture).0
+        }
+        None => textures.seen(look).0,
+    };
+    seen.map(|share| (share * 255.0).round().clamp(0.0, 255.0) as u8)
+}
+
+fn hexed([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+fn surface(lot: &Derived, face: &Face, kind: &str) -> String {
+    let feature = face.feature;
     let [width, height] = lot.surfaces.size[feature];
     let class = &lot.surfaces.class[feature];
     let class = if class.is_empty() { "other" } else { class };
     let mut text = format!(
-        r#"{{"type":"{kind}","rule":{},"class":{}"#,
+        r#"{{"type":"{kind}","rule":{},"class":{},"colour":"{}""#,
         quoted(&lot.names[feature]),
-        quoted(class)
+        quoted(class),
+        hexed(face.colour)
     );
     for (name, size) in [("width_m", width), ("height_m", height)] {
         if size.is_finite() && size > 0.0 {
@@ -213,11 +249,12 @@ fn volumes(
     lot: &Derived,
     place: [f64; 3],
     kinds: &[String],
+    textures: &Textures,
     code: &impl Fn(&str) -> u8,
     grid: &mut Grid,
 ) -> Result<Vec<String>, String> {
     let mut own = Grid::default();
-    let mut faces = faces(lot, place, &mut own)?;
+    let mut faces = faces(lot, place, textures, &mut own)?;
     let all: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.rings).collect();
     if !all.is_empty() && is_closed(&all) {
         let faces = faces.iter().map(|face| volume_face(lot, face, kinds, code));

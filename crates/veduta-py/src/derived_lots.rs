@@ -58,7 +58,7 @@ type Colour = (f32, f32, f32);
 type Extent = (Point, Point, usize);
 type Point = (f64, f64, f64);
 /// Geometry, installations, vertices.
-type CityTexts = (String, Vec<(u8, String, String)>, String);
+type CityTexts = (String, Vec<(u8, String, String, String)>, String);
 
 #[pymethods]
 impl DerivedLots {
@@ -160,11 +160,12 @@ impl DerivedLots {
         }))
     }
 
-    /// Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
+    /// Geometry, installations (class, rule, colour, geometry) and vertices (mm) of a lot at its place, as
     /// texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
-    /// `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
+    /// `textures` have their mean colours (sRGB). `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
     /// geometries of LoD 1.2 and 2.2.
-    #[pyo3(signature = (lot, place, classes, kinds, volumes=None))]
+    #[pyo3(signature = (lot, place, classes, kinds, textures=Vec::new(), volumes=None))]
+    #[allow(clippy::too_many_arguments)] // as Python calls it
     fn city(
         &self,
         py: Python<'_>,
@@ -172,6 +173,7 @@ impl DerivedLots {
         place: [f64; 3],
         classes: Vec<String>,
         kinds: Vec<String>,
+        textures: Vec<(String, [f32; 3])>,
         volumes: Option<&DerivedLots>,
     ) -> PyResult<CityTexts> {
         let Ok(derived) = self.lot(lot)?.as_ref() else {
@@ -189,7 +191,11 @@ impl DerivedLots {
             Some(volumes) => volumes.lot(lot)?.as_ref().ok(),
             None => None,
         };
-        let made = py.detach(|| city(derived, volume, place, &kinds, code));
+        let textures = Textures {
+            named: textures,
+            shown: false,
+        };
+        let made = py.detach(|| city(derived, volume, place, &kinds, &textures, code));
         let text = made.map_err(PyValueError::new_err)?;
         Ok((text.body, text.installations, text.vertices))
     }

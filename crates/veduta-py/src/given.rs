@@ -11,6 +11,9 @@ pub enum Given {
     Bool(bool),
     Number(f64),
     Text(String),
+    Bools(Vec<bool>),
+    Numbers(Vec<f64>),
+    Texts(Vec<String>),
 }
 
 impl From<Given> for Value {
@@ -19,6 +22,9 @@ impl From<Given> for Value {
             Given::Bool(is) => Value::Bool(is),
             Given::Number(number) => Value::Number(number),
             Given::Text(text) => Value::text(&text),
+            Given::Numbers(all) => Value::list(all.into_iter().map(Value::Number).collect()),
+            Given::Bools(all) => Value::list(all.into_iter().map(Value::Bool).collect()),
+            Given::Texts(all) => Value::list(all.iter().map(|text| Value::text(text)).collect()),
         }
     }
 }

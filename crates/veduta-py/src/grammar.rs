@@ -113,6 +113,12 @@ impl GrammarRules {
         self.notes.clone()
     }
 
+    /// Whether they ask where shapes lie on Earth.
+    #[getter]
+    fn asks_place(&self) -> bool {
+        self.code.asks_place
+    }
+
     /// Whether the rules ask which files there are, and whether they read some.
     #[getter]
     fn asks_files(&self) -> (bool, bool) {
@@ -120,12 +126,14 @@ impl GrammarRules {
     }
 
     /// Makes the files of a project known: their names, the content of those that are text, and the
-    /// width and height of those that are pictures (px).
+    /// width and height of those that are pictures (px), and what assets say besides, by its keys.
+    #[pyo3(signature = (names, texts, pictures, metadata=HashMap::new()))]
     fn add_files(
         &self,
         names: Vec<String>,
         texts: HashMap<String, String>,
         pictures: HashMap<String, [f64; 2]>,
+        metadata: HashMap<String, HashMap<String, Given>>,
     ) -> PyResult<()> {
         let shared = |name: String| -> Arc<str> { name.into() };
         let mut names: Vec<Arc<str>> = names.into_iter().map(shared).collect();
@@ -139,6 +147,10 @@ impl GrammarRules {
                 .map(|(name, text)| (name.into(), text.into()))
                 .collect(),
             pictures: pictures.map(|(name, size)| (name.into(), size)).collect(),
+            metadata: metadata
+                .into_iter()
+                .map(|(name, told)| (name.into(), values(told)))
+                .collect(),
         };
         let fault = |_| PyValueError::new_err("files cannot be added now");
         *self.files.write().map_err(fault)? = Arc::new(files);

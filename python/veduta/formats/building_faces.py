@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.place.material import Colour
 from veduta.place.semantics import SemanticClass
 
 MOST_CORNERS = 20_000_000
@@ -17,11 +18,22 @@ Rings = tuple[NDArray[np.float64], ...]
 
 
 @dataclass(frozen=True)
+class SurfaceTold:
+    """What a file says of a semantic surface. name: of its rule; colour: sRGB, 0 to 1."""
+
+    semantic: SemanticClass | None
+    name: str = ""
+    colour: Colour | None = None
+
+
+@dataclass(frozen=True)
 class BuildingFaces:
     """The polygons of one building in the coordinates of its file.
 
     classes: one for each polygon, None where the file does not say it. solid: whether the file
-    says that the polygons close a body.
+    says that the polygons close a body. surfaces: what the file says of the semantic surfaces, and
+    surface: which of them each polygon is of, -1 where it does not say it; empty where formats have
+    no such surfaces.
     """
 
     id: str
@@ -30,6 +42,8 @@ class BuildingFaces:
     attributes: Mapping[str, str | int | float] = field(default_factory=dict)
     lod: str = ""
     solid: bool = False
+    surfaces: tuple[SurfaceTold, ...] = ()
+    surface: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

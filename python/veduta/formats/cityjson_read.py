@@ -9,14 +9,20 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.formats.building_faces import MOST_CORNERS, BuildingFaces, CityFile, Rings
+from veduta.formats.building_faces import (
+    MOST_CORNERS,
+    BuildingFaces,
+    CityFile,
+    Rings,
+    SurfaceTold,
+)
 from veduta.place.semantics import SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -35,6 +41,7 @@ SURFACES = {
     "OuterCeilingSurface": SemanticClass.OTHER,
     "ClosureSurface": SemanticClass.OTHER,
 }
+_CLASSES = {one.value: one for one in SemanticClass}
 _SAVE = "Save it anew as CityJSON 2.0."
 _DEPTH = {"MultiSurface": 1, "CompositeSurface": 1, "Solid": 2, "MultiSolid": 3}
 _DEPTH["CompositeSolid"] = 3
@@ -44,8 +51,11 @@ class _Fault(ValueError):
     """A building that cannot be used."""
 
 
-def read_cityjson(path: Path) -> CityFile:
-    """The buildings; InputError where the file is none that can be used."""
+def read_cityjson(path: Path, *, installations: bool = False) -> CityFile:
+    """The buildings; InputError where the file is none that can be used.
+
+    installations: whether balconies, chimneys and their like are taken with their buildings.
+    """
     documents = _documents(path)
     head = next(documents, None)
     if not isinstance(head, dict) or head.get("type") != "CityJSON":
@@ -58,13 +68,14 @@ def read_cityjson(path: Path) -> CityFile:
         objects = document.get("CityObjects", {})
         if not isinstance(objects, dict):
             raise InputError(path, "has no CityObjects", _SAVE)
+        parts = _installations(objects) if installations else {}
         for name, one in objects.items():
             if not isinstance(one, dict) or one.get("type") not in BUILDINGS:
                 continue
-            if not one.get("geometry"):
+            if not one.get("geometry") and name not in parts:
                 continue
             try:
-                building = _building(str(name)[:200], one, points)
+                building = _building(str(name)[:200], one, points, parts.get(name, ()))
             except _Fault as fault:
                 left.append((str(name)[:200], str(fault)))
                 continue
@@ -136,28 +147,55 @@ def _vertices(path: Path, head: dict[str, Any], document: dict[str, Any]) -> NDA
     return found
 
 
-def _building(name: str, one: dict[str, Any], points: NDArray[np.float64]) -> BuildingFaces:
-    geometry = _finest(one["geometry"])
-    depth = _DEPTH[geometry["type"]]
+def _installations(objects: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
+    """Those of each building, by its name."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for one in objects.values():
+        if isinstance(one, dict) and one.get("type") == "BuildingInstallation":
+            parents = one.get("parents")
+            if isinstance(parents, list) and parents and one.get("geometry"):
+                found.setdefault(str(parents[0]), []).append(one)
+    return found
+
+
+def _building(
+    name: str,
+    one: dict[str, Any],
+    points: NDArray[np.float64],
+    installations: Sequence[dict[str, Any]] = (),
+) -> BuildingFaces:
     polygons: list[Rings] = []
-    classes: list[SemanticClass | None] = []
-    semantics = geometry.get("semantics")
-    values = semantics.get("values") if isinstance(semantics, dict) else None
-    kinds = _kinds(semantics)
-    for face, value in _faces(geometry.get("boundaries"), values, depth):
-        polygons.append(_rings(face, points))
-        known = isinstance(value, int) and 0 <= value < len(kinds)
-        classes.append(kinds[value] if known else None)
+    surfaces: list[SurfaceTold] = []
+    surface: list[int] = []
+    lod, solid = "", False
+    if one.get("geometry") or not installations:
+        geometry = _finest(one["geometry"])
+        depth = _DEPTH[geometry["type"]]
+        lod, solid = str(geometry.get("lod", ""))[:8], depth > 1
+        semantics = geometry.get("semantics")
+        values = semantics.get("values") if isinstance(semantics, dict) else None
+        surfaces = _surfaces(semantics)
+        for face, value in _faces(geometry.get("boundaries"), values, depth):
+            polygons.append(_rings(face, points))
+            known = isinstance(value, int) and 0 <= value < len(surfaces)
+            surface.append(value if known else -1)
+    for part in installations:
+        geometry = _finest(part["geometry"])
+        for face, _ in _faces(geometry.get("boundaries"), None, _DEPTH[geometry["type"]]):
+            polygons.append(_rings(face, points))
+            surface.append(len(surfaces))
+        surfaces.append(_told(part.get("attributes"), None))
     if not polygons:
         raise _Fault("has no surfaces")
+    classes = [surfaces[row].semantic if row >= 0 else None for row in surface]
     given = one.get("attributes")
     attributes = {
         str(key)[:200]: value
         for key, value in (given.items() if isinstance(given, dict) else ())
         if isinstance(value, str | int | float) and not isinstance(value, bool)
     }
-    lod = str(geometry.get("lod", ""))[:8]
-    return BuildingFaces(name, tuple(polygons), tuple(classes), attributes, lod, solid=depth > 1)
+    own = tuple(surfaces), tuple(surface)
+    return BuildingFaces(name, tuple(polygons), tuple(classes), attributes, lod, solid, *own)
 
 
 def _finest(geometries: Any) -> dict[str, Any]:
@@ -174,12 +212,29 @@ def _finest(geometries: Any) -> dict[str, Any]:
     return max(usable, key=lambda found: (str(found.get("lod", "1"))[:8], _DEPTH[found["type"]]))
 
 
-def _kinds(semantics: Any) -> list[SemanticClass | None]:
+def _surfaces(semantics: Any) -> list[SurfaceTold]:
     surfaces = semantics.get("surfaces") if isinstance(semantics, dict) else None
     return [
-        SURFACES.get(str(surface.get("type"))) if isinstance(surface, dict) else None
+        _told(surface, SURFACES.get(str(surface.get("type"))))
+        if isinstance(surface, dict)
+        else SurfaceTold(None)
         for surface in (surfaces if isinstance(surfaces, list) else [])
     ]
+
+
+def _told(said: Any, kind: SemanticClass | None) -> SurfaceTold:
+    """What a semantic surface or the attributes of an installation say; as Veduta writes them, they
+    have a class of their own, the rule and the colour.
+    """
+    told = said if isinstance(said, dict) else {}
+    own = _CLASSES.get(str(told.get("class")))
+    colour = re.fullmatch(r"#([0-9a-f]{6})", str(told.get("colour")))
+    shares = None
+    if colour is not None:
+        red, green, blue = bytes.fromhex(colour[1])
+        shares = (red / 255, green / 255, blue / 255)
+    name = told.get("rule")
+    return SurfaceTold(own or kind, name[:200] if isinstance(name, str) else "", shares)
 
 
 def _faces(boundaries: Any, values: Any, depth: int) -> Iterator[tuple[Any, Any]]:

@@ -30,8 +30,8 @@ INSTALLATIONS = frozenset({SemanticClass.BALCONY, SemanticClass.CORNICE, Semanti
 CLASSES = [semantic.value for semantic in SemanticClass]
 KINDS = ["" if one in INSTALLATIONS else CITYJSON_SURFACE[one] for one in SemanticClass]
 
-Geometry = tuple[str, list[tuple[int, str, str]], str]
-"""Of the building, of its installations (class, rule, geometry), and the vertices."""
+Geometry = tuple[str, list[tuple[int, str, str, str]], str]
+"""Of the building, of its installations (class, rule, colour, geometry), and the vertices."""
 
 
 def feature_line(building: str, attributes: Mapping[str, Any], geometry: Geometry) -> str | None:
@@ -48,8 +48,8 @@ def feature_line(building: str, attributes: Mapping[str, Any], geometry: Geometr
             body,
         )
     ]
-    for name, (code, rule, text) in zip(children, installations, strict=True):
-        about = {"class": CLASSES[code], "rule": rule}
+    for name, (code, rule, colour, text) in zip(children, installations, strict=True):
+        about = {"class": CLASSES[code], "rule": rule, "colour": colour}
         more = {"type": "BuildingInstallation", "parents": [building], "attributes": about}
         objects.append(_object(name, more, text))
     return (

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.formats.building_faces import MOST_CORNERS, BuildingFaces, CityFile
+from veduta.formats.building_faces import MOST_CORNERS, BuildingFaces, CityFile, SurfaceTold
 from veduta.formats.citygml_read import read_citygml
 from veduta.formats.cityjson_read import read_cityjson
 from veduta.formats.glb_mesh import read_glb_mesh
@@ -68,7 +68,11 @@ def read_trimesh_place(path: Path) -> Place:
 
 def read_city_place(path: Path) -> Place:
     """The buildings of a CityJSON or CityGML file, each a part."""
-    city = read_citygml(path) if path.suffix.lower() == ".gml" else read_cityjson(path)
+    city = (
+        read_citygml(path)
+        if path.suffix.lower() == ".gml"
+        else read_cityjson(path, installations=True)
+    )
     if not city.buildings:
         raise InputError(path, "has no building with polygons", "Choose a model of LoD1 or above.")
     place = Place(title=path.stem, crs=None if city.epsg is None else f"EPSG:{city.epsg}")
@@ -103,15 +107,21 @@ def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
     builder.attributes |= dict(building.attributes)
     told = building.attributes.get("provenance")
     known_by = Provenance(told) if told in set(Provenance) else Provenance.MEASURED
-    materials: dict[SemanticClass, int] = {}
-    features: dict[SemanticClass, int] = {}
-    for rings, known in zip(building.polygons, building.classes, strict=True):
+    materials: dict[Material, int] = {}
+    features: dict[int | SemanticClass, int] = {}
+    rows = building.surface or (-1,) * len(building.polygons)
+    for rings, known, row in zip(building.polygons, building.classes, rows, strict=True):
         semantic = known or SemanticClass.OTHER
-        if semantic not in features:
-            features[semantic] = builder.feature(semantic, known_by, semantic.value)
-            materials[semantic] = builder.material(Material(semantic.value))
+        said = building.surfaces[row] if row >= 0 else SurfaceTold(known)
+        # A file that tells of no surface more than its class has one of each class.
+        key = row if said.name or said.colour else semantic
+        if key not in features:
+            features[key] = builder.feature(semantic, known_by, said.name or semantic.value)
+        material = Material(semantic.value, said.colour or (1.0, 1.0, 1.0))
+        if material not in materials:
+            materials[material] = builder.material(material)
         moved = [ring - origin for ring in rings]
-        builder.polygon(moved, features[semantic], materials[semantic])
+        builder.polygon(moved, features[key], materials[material])
     return builder.build()
 
 

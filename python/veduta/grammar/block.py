@@ -16,9 +16,11 @@ from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line, forms_of
 from veduta.formats.tiles import Tile
 from veduta.grammar.building import Building, NothingBuiltError, build
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
+from veduta.grammar.edge_values import without_edges
 from veduta.grammar.failures import Failures
 from veduta.grammar.levels import FULL, PANELS, PLAIN, VOLUME
 from veduta.grammar.lot import Lot
+from veduta.grammar.on_earth import OnEarth
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.project import SearchPath
 from veduta.grammar.quadtree import squares
@@ -62,6 +64,7 @@ class Job:
     search: where what the rules name lies. textures: the files of the pictures
     that the rules name, by those names. separate: whether each building gets a GLB of its own.
     city: the file for the buildings as lines of CityJSON, None where they are not wanted.
+    earth: where the lots lie, where the rules ask that.
     """
 
     block: Block
@@ -74,6 +77,7 @@ class Job:
     separate: bool
     city: Path | None
     textures: Mapping[str, str] = field(default_factory=dict)
+    earth: OnEarth | None = None
 
 
 @dataclass
@@ -119,7 +123,7 @@ class BlockResult:
 
 def run_block(job: Job) -> dict[str, Any]:
     """Derive each lot and write its tiles, its model and its line of CityJSON; the summary."""
-    by = deriver(job.files, job.search, job.options, job.block.beside)
+    by = deriver(job.files, job.search, job.options, job.block.beside, job.earth)
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)
@@ -250,11 +254,12 @@ def _city(
     With `volumes`, the lots at their lowest level, closed volumes stand beside it; not of lots with
     edits, which have but one level.
     """
+    named = [picture.named for picture in result.town.pictures]
     for row, one in zip(rows, built, strict=True):
         derived = next(level for level in levels if level.extent(row) is not None)
         closed = None if one.lot.edits else volumes
-        geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS, closed)
-        about = one.lot.attributes | {"name": one.lot.name, "provenance": "invented"}
+        geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS, named, closed)
+        about = without_edges(one.lot.attributes) | {"name": one.lot.name, "provenance": "invented"}
         about |= as_attributes(reported[one.lot.id], about)
         line = feature_line(one.lot.id, about, geometry)
         if line:

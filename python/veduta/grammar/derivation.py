@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from veduta import _core
 from veduta.grammar.assets.library import Library
 from veduta.grammar.building import build_part
+from veduta.grammar.edge_values import EdgeList
 from veduta.grammar.edits import Edit, path_text
 from veduta.grammar.options import LimitOptions
 from veduta.grammar.outline import Attribute
@@ -361,6 +362,7 @@ def derive(
     attributes: Mapping[str, Attribute] | None = None,
     edits: Sequence[Edit] = (),
     surroundings: Surroundings | None = None,
+    besides: Mapping[str, EdgeList] | None = None,
     limits: LimitOptions | None = None,
 ) -> Derivation:
     """The building on a lot: rings of (n, 2) or (n, 3) metres, the outline first.
@@ -368,6 +370,7 @@ def derive(
     InputError where the rules fail, or there is no such start rule or attribute. Edits that cannot
     be done are in `Derivation.edit_faults`. limits: what it may cost, and again each shape that is
     made anew by `rederive`; the fault names the option that allows more.
+    besides: what is known of its edges, as `veduta.grammar.edge_values` has it.
     surroundings: what stands beside the lot, and how far off; `inter` asks about it.
     """
     for name in attributes or ():
@@ -383,7 +386,7 @@ def derive(
             rings,
             seed,
             start=start,
-            attributes=dict(attributes or {}),
+            attributes={**(attributes or {}), **(besides or {})},
             edits=[edit.core for edit in edits],
             around=around,
             beside=beside,

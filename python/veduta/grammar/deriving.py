@@ -10,16 +10,19 @@ from typing import TypeVar
 
 from veduta import _core
 from veduta.grammar.assets.library import Library
+from veduta.grammar.edge_values import EdgeList, edge_lists
 from veduta.grammar.edits import fault_told
 from veduta.grammar.levels import FULL, Levels, levels_of
 from veduta.grammar.lot import Lot
 from veduta.grammar.lot_names import measured, property_of
+from veduta.grammar.on_earth import OnEarth
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
 from veduta.grammar.project import SearchPath
 from veduta.grammar.project_files import project_files
 
 Vector = tuple[float, float, float]
+Given = dict[str, Attribute | EdgeList]
 Made = TypeVar("Made", _core.DerivedLots, _core.Surroundings)
 
 
@@ -27,7 +30,8 @@ Made = TypeVar("Made", _core.DerivedLots, _core.Surroundings)
 class Deriver:
     """Compiled rules with their assets, and how they are to be derived.
 
-    beside: the lots that stand beside each, by its id, where the rules ask about them.
+    beside: the lots that stand beside each, by its id, where the rules ask about them. earth: where
+    the lots lie, where the rules ask that.
     """
 
     rules: _core.GrammarRules
@@ -35,6 +39,7 @@ class Deriver:
     levels: Levels
     options: GrammarOptions
     beside: Mapping[str, Sequence[Lot]] = field(default_factory=dict)
+    earth: OnEarth | None = None
 
     def together(self, lots: Sequence[Lot], level: float) -> _core.DerivedLots:
         """The lots at a level of detail, on the engine's side.
@@ -120,17 +125,18 @@ class Deriver:
     def _seeds(self, lots: Sequence[Lot]) -> list[int]:
         return [seed_of(lot, self.options.derive.seed) for lot in lots]
 
-    def _given(self, lots: Sequence[Lot], level: float) -> list[dict[str, Attribute]]:
-        """The attributes of lots that have sound ones.
+    def _given(self, lots: Sequence[Lot], level: float) -> list[Given]:
+        """The attributes of lots that have sound ones, and what is known besides of each.
 
         Edits name shapes of the tree with all that there is: lots with edits have that level only.
         """
         kinds = dict(self.rules.attributes)
-        found = []
+        found: list[Given] = []
         for lot in lots:
             given = attributes_of(lot, kinds, self.options)
             if not isinstance(given, str):
-                found.append(self.levels.given(given, FULL if lot.edits else level))
+                own = self.levels.given(given, FULL if lot.edits else level)
+                found.append({**own, **known_besides(lot, self.earth)})
         return found
 
 
@@ -150,14 +156,22 @@ def deriver(
     search: SearchPath,
     options: GrammarOptions,
     beside: Mapping[str, Sequence[Lot]] | None = None,
+    earth: OnEarth | None = None,
 ) -> Deriver:
     """What derives by these files; `search` says where what they name lies.
 
-    beside: the lots that stand beside each, by its id, where the rules ask about them.
+    beside: the lots that stand beside each, by its id, where the rules ask about them. earth: where
+    they lie, where the rules ask that.
     """
     rules, library = _compiled(files, options.derive.style, search)
     levels = levels_of(rules, options.attributes.values)
-    return Deriver(rules, library, levels, options, beside or {})
+    return Deriver(rules, library, levels, options, beside or {}, earth)
+
+
+def known_besides(lot: Lot, earth: OnEarth | None = None) -> dict[str, EdgeList]:
+    """What the engine is given of a lot besides: attributes of edges, and where it is."""
+    found: dict[str, EdgeList] = {**edge_lists(lot.attributes)}
+    return found if earth is None else {**found, **earth.about(lot)}
 
 
 def attributes_of(

@@ -31,6 +31,7 @@ from veduta.grammar.city_stream import (
     large_city_outlines,
     sequence_outlines,
 )
+from veduta.grammar.edge_values import STREET, edges_of_ring
 from veduta.grammar.edits import Edit
 from veduta.grammar.failures import Failures
 from veduta.grammar.feature_stream import FeatureStream
@@ -54,7 +55,7 @@ from veduta.grammar.lot import (
 )
 from veduta.grammar.object_lots import object_outlines
 from veduta.grammar.options import LotOptions
-from veduta.grammar.outline import Found, Outline, Outlines, Road
+from veduta.grammar.outline import Attribute, Found, Outline, Outlines, Road
 from veduta.grammar.package_lots import is_package, package_outlines
 from veduta.grammar.rings import RingFault, clean_rings
 from veduta.grammar.roads import Roads
@@ -224,9 +225,14 @@ class _Stand:
             own = [ring[:, :2] + (east, north) for ring in rings]
             level = self.terrain.under(own, self.ground) - up
         attributes = outline.attributes
+        told: dict[str, Attribute] = {}
         if (front := self.roads.front_of(flat[0] + low[:2])) is not None:
             flat = [np.roll(flat[0], -front.edge, axis=0), *flat[1:]]
-            attributes = front.attributes() | attributes
+            widths = [*np.roll(front.widths_m, -front.edge).tolist()]
+            widths += [0.0] * sum(len(ring) for ring in flat[1:])
+            told = {STREET: ";".join(f"{width:g}" for width in widths)}
+        attributes = edges_of_ring(attributes, [ring[:, :2] - low[:2] for ring in rings], flat)
+        attributes = (front.attributes() if front else {}) | told | attributes
         return Lot(
             id=own_id(outline.name),
             name=outline.name,

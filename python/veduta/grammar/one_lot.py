@@ -10,7 +10,7 @@ import numpy as np
 
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.derivation import Derivation, Rules, derive
-from veduta.grammar.deriving import Deriver, attributes_of, seed_of
+from veduta.grammar.deriving import Deriver, attributes_of, known_besides, seed_of
 from veduta.grammar.edits import Edit, fault_told
 from veduta.grammar.levels import FULL, Levels
 from veduta.grammar.lot import Lot
@@ -83,6 +83,7 @@ def derive_lot(
         attributes=given,
         edits=edits,
         surroundings=(around, rows[0]) if around and rows else None,
+        besides=known_besides(lot),
         limits=options.limits,
     )
     fault = fault_told(edits, made.edit_faults)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.grammar.edge_values import edge_texts, without_edges
 from veduta.grammar.failures import Failures
 from veduta.run.report import Failure
 
@@ -75,7 +76,7 @@ Outlines = Iterator[Outline]
 
 
 def plain_attributes(properties: Any) -> dict[str, Attribute]:
-    """The properties that a rule file can take: truth values, numbers, texts."""
+    """The properties that a rule file can take: truth values, numbers, texts; lists of edges."""
     if not isinstance(properties, dict):
         return {}
     found: dict[str, Attribute] = {}
@@ -84,7 +85,7 @@ def plain_attributes(properties: Any) -> dict[str, Attribute]:
             found[name] = value
         elif isinstance(value, int | float) and abs(value) < 1e300:
             found[name] = float(value)
-    return found
+    return without_edges(found) | edge_texts(properties)
 
 
 def name_of(attributes: dict[str, Attribute], keys: Sequence[str], number: int) -> str:

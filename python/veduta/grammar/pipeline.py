@@ -28,6 +28,7 @@ from veduta.grammar.kerbs import streets_of, with_streets
 from veduta.grammar.left_out import told_of_all
 from veduta.grammar.lot import anchors_of
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
+from veduta.grammar.on_earth import OnEarth, on_earth
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.otherwise import otherwise
 from veduta.grammar.placing import place_of, placed_how, town_of
@@ -157,6 +158,7 @@ class _Call:
     squares: Squares
     keys: dict[str, str]
     key: str
+    earth: OnEarth | None
 
     def job(self, square: Square, folder: OutFolder) -> Job:
         """The work on a block, with its lots."""
@@ -171,6 +173,7 @@ class _Call:
             is_separate(self.options, self.lots),
             _city_path(folder.path, square) if self.options.output.city else None,
             self.textures,
+            self.earth,
         )
 
 
@@ -207,6 +210,8 @@ def _call(
     source = rules_name if lots_path is None else given_name(lots_path)
     made_of: list[JsonValue] = [files_digest(files), assets, textures_digests(textures)]
     made_of += [asked.digest()] if asked.names else []
+    earth = on_earth(lots.crs, lots.origin_m) if compiled.asks_place else None
+    made_of += [earth.crs, list(earth.origin_m)] if earth else []
     keys = {
         square.name: _key("block", options, [*made_of, told(squares.block(square))])
         for square in squares.every
@@ -226,6 +231,7 @@ def _call(
         squares,
         keys,
         key,
+        earth,
     )
 
 

@@ -11,14 +11,16 @@ from pathlib import Path
 from PIL import Image, UnidentifiedImageError
 
 from veduta import _core
+from veduta.formats.glb_head import extras_of, head_of
+from veduta.grammar.edge_values import Attribute, EdgeList
 from veduta.grammar.encodings import decoded
 from veduta.grammar.project import SearchPath
 
 MOST_FILES, MOST_FOLDERS = 20_000, 10_000
 """Files and folders of a project that are looked at."""
-TEXTS = (".csv", ".txt", ".tsv")
+TEXTS = (".csv", ".txt", ".tsv", ".mtl")
 MOST_TEXT = 4 * 2**20
-"""Bytes of all tables together."""
+"""Bytes of all tables and materials together, and of the heads of assets."""
 PICTURES = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp")
 
 
@@ -29,15 +31,16 @@ class ProjectFiles:
     names: list[str] = field(default_factory=list)
     texts: dict[str, str] = field(default_factory=dict)
     pictures: dict[str, tuple[float, float]] = field(default_factory=dict)
+    metadata: dict[str, dict[str, Attribute | EdgeList]] = field(default_factory=dict)
 
     def digest(self) -> str:
         """Changes with anything that rules can learn of them."""
-        told = [self.names, self.texts, self.pictures]
+        told = [self.names, self.texts, self.pictures, self.metadata]
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
 
     def add_to(self, rules: _core.GrammarRules) -> None:
         """Hand them to the engine."""
-        rules.add_files(self.names, self.texts, self.pictures)
+        rules.add_files(self.names, self.texts, self.pictures, self.metadata)
 
 
 def project_files(search: SearchPath, rules: _core.GrammarRules) -> ProjectFiles:
@@ -57,6 +60,7 @@ def project_files(search: SearchPath, rules: _core.GrammarRules) -> ProjectFiles
                 found.pictures[name] = size
     if reads:
         _read_texts(paths, found)
+        _read_metadata(paths, found)
     return found
 
 
@@ -88,6 +92,23 @@ def _read_texts(paths: dict[str, Path], found: ProjectFiles) -> None:
         if name.lower().endswith(TEXTS) and size <= room:
             room -= size
             found.texts[name] = decoded(path.read_bytes())[0]
+
+
+def _read_metadata(paths: dict[str, Path], found: ProjectFiles) -> None:
+    """What binary glTF files say in the `extras` of their asset, scene and first nodes."""
+    room = MOST_TEXT
+    for name, path in paths.items():
+        if not name.lower().endswith(".glb"):
+            continue
+        root = head_of(path, room)
+        if root is None:
+            continue
+        room -= len(json.dumps(root))
+        told: dict[str, Attribute | EdgeList] = {}
+        for extras in extras_of(root):
+            told |= {key: value for key, value in extras.items() if key not in told}
+        if told:
+            found.metadata[name] = told
 
 
 def _size(path: Path) -> tuple[float, float] | None:

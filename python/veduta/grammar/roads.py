@@ -65,13 +65,15 @@ class Front:
     """The front of a lot.
 
     edge: the number of its first point. width_m: of the street. gap_m: from the edge to the
-    carriageway. corner: whether another edge looks at a street in another direction.
+    carriageway. corner: whether another edge looks at a street in another direction. widths_m: of
+    the street before each edge, 0 where there is none.
     """
 
     edge: int
     width_m: float
     gap_m: float
     corner: bool
+    widths_m: tuple[float, ...] = ()
 
     def attributes(self) -> dict[str, Attribute]:
         """What rule files may ask for."""
@@ -168,9 +170,13 @@ class Roads:
             np.argmin(own - parameters.length_gain * np.minimum(length, parameters.length_most_m))
         )
         elsewhere = outward @ outward[edge] < parameters.corner_cos
-        corner = bool((own[elsewhere] <= own[edge] + parameters.corner_m).any())
+        at_street = own <= own[edge] + parameters.corner_m
+        corner = bool(at_street[elsewhere].any())
         street = near[best[edge]]
-        return Front(edge, float(self._width_m[street]), float(gap[edge, best[edge]]), corner)
+        widths = tuple(np.where(at_street, self._width_m[near[best]], 0.0).tolist())
+        return Front(
+            edge, float(self._width_m[street]), float(gap[edge, best[edge]]), corner, widths
+        )
 
 
 def _to_segments(

@@ -16,6 +16,7 @@ from veduta import _core
 from veduta.formats.boxes_glb import PlainBox, boxes_glb
 from veduta.formats.tile_glb import BuildingRow, tile_glb
 from veduta.formats.tiles import Box, Tile, union, write_tileset
+from veduta.grammar.edge_values import EdgeList
 from veduta.grammar.levels import (
     BOXES_ERROR_M,
     ERROR_M,
@@ -188,8 +189,8 @@ def _prism_rules() -> _core.GrammarRules:
 
 def prisms(built: Sequence[Built], rings: Sequence[list[list[Vector]]]) -> _core.DerivedLots:
     """The lots as prisms of the height of their buildings."""
-    given: list[dict[str, Attribute]] = [
-        prism_attributes(one.high[2], one.walls, one.roofs) for one in built
+    given: list[dict[str, Attribute | EdgeList]] = [
+        {**prism_attributes(one.high[2], one.walls, one.roofs)} for one in built
     ]
     edits: list[list[Any]] = [[] for _ in built]
     return _core.derive_lots(

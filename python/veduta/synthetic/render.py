@@ -1,7 +1,8 @@
 """Renders any place through any camera: radiance, and per pixel the feature and the depth.
 
 Ray casting over bands of rows. One ray per sample finds the surface; one shadow ray goes to the
-sun and one into the hemisphere above the surface (ambient occlusion); glass mirrors the sky.
+sun and one into the hemisphere above the surface (ambient occlusion); glass mirrors the sky, and
+what stands behind surfaces that are not opaque is seen through them.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ _OFFSET_M = 2e-3
 _AMBIENT_REACH_M = 2.5
 _SUN_RADIUS_RAD = 0.0047
 _GLASS_FACING = 0.13
+_MOST_PANES = 4
+"""That a ray goes through."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +103,12 @@ def _primary(camera: Camera, rows: range, offset: tuple[float, float]) -> tuple[
 
 
 def _shade(
-    scene: RayScene, light: Light, origins: Floats, rays: Floats, rng: np.random.Generator
+    scene: RayScene,
+    light: Light,
+    origins: Floats,
+    rays: Floats,
+    rng: np.random.Generator,
+    panes: int = 0,
 ) -> tuple[Floats, Floats, Floats, NDArray[np.int64]]:
     """Per ray: direct radiance, ambient radiance without occlusion, openness, polygon."""
     hits = scene.cast(origins, rays)
@@ -125,6 +133,16 @@ def _shade(
     ambient[hits.ray] = albedo * light.ambient(normal)
     free[hits.ray] = 1.0 - scene.blocked(points, _hemisphere(normal, rng), _AMBIENT_REACH_M)
     polygon[hits.ray] = scene.polygon[hits.triangle]
+    opacity = scene.opacity[scene.material[hits.triangle]]
+    clear = np.flatnonzero(opacity < 1.0)
+    if len(clear) and panes < _MOST_PANES:
+        own, through = hits.ray[clear], 1.0 - opacity[clear][:, None]
+        beyond = points[clear] + view[clear] * (2.0 * _OFFSET_M) - normal[clear] * _OFFSET_M
+        seen = _shade(scene, light, beyond, np.ascontiguousarray(view[clear]), rng, panes + 1)
+        direct[own] = (direct[own] - shine[clear]) * (1.0 - through) + shine[clear]
+        direct[own] += through * seen[0]
+        ambient[own] = (1.0 - through) * ambient[own] + through * seen[1]
+        free[own], polygon[own] = seen[2], seen[3]
     return direct, ambient, free, polygon
 
 

@@ -71,6 +71,13 @@ class RayScene:
         self._texels = [_texels(m, (mirrors or {}).get(m.name)) for m in self.materials]
         self._tracer = EmbreeScene()
         self._mesh = TriangleMesh(self._tracer, self.corners)
+        self.opacity = np.array([one.opacity for one in self.materials], np.float32)
+        self._shading = self._tracer
+        opaque = self.opacity[self.material] >= 1.0
+        if opaque.any() and not opaque.all():
+            # Panes that are seen through throw no shadow.
+            self._shading = EmbreeScene()
+            self._opaque = TriangleMesh(self._shading, self.corners[opaque])
 
     def cast(self, origins: NDArray[np.float32], directions: NDArray[np.float32]) -> Hits:
         """The first triangle on each ray; origins and directions are (n, 3)."""
@@ -85,9 +92,9 @@ class RayScene:
         directions: NDArray[np.float32],
         reach_m: float | NDArray[np.float64],
     ) -> NDArray[np.bool_]:
-        """Whether anything stands within `reach_m` along each ray, one for all or one each."""
+        """Whether anything opaque stands within `reach_m`, one for all or one each."""
         reach = np.array(np.broadcast_to(reach_m, len(origins)), np.float32)
-        hit = self._tracer.run(origins, directions, reach, query="OCCLUDED")
+        hit = self._shading.run(origins, directions, reach, query="OCCLUDED")
         return np.asarray(hit >= 0)
 
     def surface(self, hits: Hits) -> tuple[NDArray[np.float32], NDArray[np.float32]]:

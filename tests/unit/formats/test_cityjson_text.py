@@ -109,7 +109,7 @@ def volumes(rules: str) -> tuple[dict[str, Any], dict[str, trimesh.Trimesh]]:
         _core.GrammarRules([("a.cga", rules)]), [SQUARE], [0], attributes=[{}], edits=[[]]
     )
     assert derived.fault(0) is None
-    texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, derived)
+    texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, volumes=derived)
     feature = json.loads(feature_line("a", {}, texts) or "")
     points = np.array(feature["vertices"]) / 1000
     found = {}
@@ -153,5 +153,5 @@ def test_forms_are_those_of_the_building() -> None:
     derived = _core.derive_lots(
         _core.GrammarRules([("a.cga", BOX)]), [SQUARE], [0], attributes=[{}], edits=[[]]
     )
-    texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, derived)
+    texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, volumes=derived)
     assert forms_of(texts) == ["Solid 3", "Solid 2.2"]

@@ -90,3 +90,36 @@ def test_any_format_is_written_of_it(town: Path) -> None:
 def test_without_a_city_model_the_remedy_is_told(town: Path) -> None:
     with pytest.raises(InputError, match=r"without a city model.* --separate"):
         Place.load(town).write(town / "town.obj")
+
+
+def test_surfaces_keep_their_colours_classes_and_rules(town: Path) -> None:
+    """A derived town in tiles, as its city model has it: one material for each semantic surface."""
+    write_city(town / "city.city.json", "invented")
+    city = json.loads((town / "city.city.json").read_text())
+    house = city["CityObjects"]["house"]
+    told = [
+        {"type": "GroundSurface"},
+        {"type": "RoofSurface", "class": "roof", "rule": "Tiles", "colour": "#800000"},
+        {"type": "WallSurface", "class": "shop", "rule": "Shop", "colour": "#00ff33"},
+    ]
+    house["geometry"][0]["semantics"]["surfaces"] = told
+    about = {"class": "cornice", "rule": "Ledge", "colour": "#0000ff"}
+    ledge = {"type": "MultiSurface", "lod": "3", "boundaries": [[[0, 1, 5]]]}
+    city["CityObjects"]["house/0"] = {
+        "type": "BuildingInstallation", "parents": ["house"], "attributes": about,
+        "geometry": [ledge],
+    }  # fmt: skip
+    (town / "city.city.json").write_text(json.dumps(city))
+    part = untiled(Place.load(town)).parts["house"].content
+    seen = {}
+    for row in range(len(part.polygon_feature)):
+        feature = int(part.polygon_feature[row])
+        material = part.materials[int(part.polygon_material[row])]
+        colour = tuple(round(255 * share) for share in material.colour)
+        seen[part.features.name[feature]] = (part.features.semantic(feature).value, colour)
+    assert seen == {
+        "ground": ("ground", (255, 255, 255)),
+        "Tiles": ("roof", (128, 0, 0)),
+        "Shop": ("shop", (0, 255, 51)),
+        "Ledge": ("cornice", (0, 0, 255)),
+    }

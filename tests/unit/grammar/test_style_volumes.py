@@ -36,7 +36,9 @@ def volumes_of(style: str, rings: list[Ring], given: dict[str, Attribute]) -> li
     ]
     found = []
     for row in range(SEEDS):
-        body, _, vertices = derived[0].city(row, (0.0, 0.0, 0.0), CLASSES, KINDS, derived[1])
+        body, _, vertices = derived[0].city(
+            row, (0.0, 0.0, 0.0), CLASSES, KINDS, volumes=derived[1]
+        )
         points = np.array(json.loads(vertices)) * MM
         geometries: list[dict[str, Any]] = json.loads(f"[{body}]")
         shells = [one["boundaries"][0] for one in geometries if one["lod"] == "2.2"]

@@ -1,6 +1,6 @@
 //! The functions: how many arguments they take, and which words these may be.
 
-use super::words::{AXES, AXIS_SETS, COMPONENTS, FACE_SELECTORS, KINDS, SPACES};
+use super::words::{AXIS_SETS, COMPONENTS, FACE_SELECTORS, KINDS, SPACES};
 use super::{Words, ANY, NONE};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +50,7 @@ const COORDINATE: &[Words] = &[
     &["pos", "orient"],
 ];
 const SPACE_OF_UV: &[Words] = &[NONE, &["uvSpace", "unitSpace"]];
-const SIZES: &[Words] = &[NONE, ANY, ANY];
+const GEOGRAPHIC: Words = &["x", "y", "lon", "lat"];
 const ASSET_SIZES: &[Words] = &[NONE, &["sx", "sy", "sz", "tx", "ty", "tz"]];
 const PARTS: &[Words] = &[NONE, &["g", "m"]];
 const AXES_OF_SCOPE: &[Words] = &[NONE, AXIS_SETS];
@@ -104,7 +104,7 @@ pub const FUNCTIONS: &[Function] = &[
     of("fileRandom", 1),
     // Assets and images
     takes("assetInfo", 2, 2, ASSET_SIZES), takes("imageInfo", 2, 2, RATIOS),
-    takes("assetMetadata", 1, 3, SIZES),
+    of("assetMetadata", 3),
     takes("assetNamingInfo", 2, 2, PARTS), takes("assetNamingInfos", 2, 2, PARTS),
     takes("assetsSortRatio", 2, 3, RATIOS), takes("assetsSortSize", 3, 3, AXES_OF_SCOPE),
     takes("imagesSortRatio", 2, 3, RATIOS),
@@ -129,7 +129,7 @@ pub const FUNCTIONS: &[Function] = &[
     of("colorHexToH", 1), of("colorHexToS", 1), of("colorHexToV", 1), of("colorHSVToHex", 3),
     of("colorHSVOToHex", 4), of("colorRGBToHex", 3), of("colorRGBOToHex", 4), of("colorRamp", 2),
     // Others
-    takes("convert", 4, 7, COORDINATE), takes("getGeoCoord", 1, 2, &[&["lat", "lon"], AXES]),
+    takes("convert", 4, 7, COORDINATE), takes("getGeoCoord", 1, 1, &[GEOGRAPHIC]),
     of("getTreeKey", 0), of("print", 1),
 ];
 

@@ -31,6 +31,8 @@ pub struct Code {
     pub lists_files: bool,
     /// Whether they read what stands in files.
     pub reads_files: bool,
+    /// Whether they ask where shapes lie on Earth.
+    pub asks_place: bool,
     /// Whether a rule trims shapes.
     pub trims: bool,
     /// Whether they ask for tags.

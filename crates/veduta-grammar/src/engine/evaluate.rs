@@ -9,6 +9,7 @@ use super::draws::Draws;
 use super::fault::Fault;
 use super::functions::Function;
 use super::indexing::{beside, indexed};
+use super::marks::Tags;
 use super::operators::{binary, unary};
 use super::random::Stream;
 use super::run::Run;
@@ -54,9 +55,13 @@ impl Run<'_> {
             ExprKind::Attribute(attribute) => Ok(attribute.of(scene.state, self.first())),
             ExprKind::Measure { measure, args } => {
                 let values = self.values(args, scene)?;
+                let tags = match measure.is_of_tags() {
+                    true => self.edge_tags(scene.state),
+                    false => Tags::new(),
+                };
                 let object = self.first().state.form.scope.axes;
                 measure
-                    .of(scene.state, object, &values)
+                    .of(scene.state, object, tags, &values)
                     .map_err(|message| Fault::at(expr.span, message))
             }
             ExprKind::Files { function, args } => {

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::functions::text;
+use super::material_files;
 use super::value::{Array, Value, MAX_ELEMENTS};
 
 /// What the files of a project are, by the names that rule files have for them.
@@ -17,6 +18,8 @@ pub struct Files {
     pub texts: HashMap<Arc<str>, Arc<str>>,
     /// Width and height of those that are pictures (px).
     pub pictures: HashMap<Arc<str>, [f64; 2]>,
+    /// What those that are assets say besides, by their keys.
+    pub metadata: HashMap<Arc<str>, HashMap<String, Value>>,
 }
 
 /// A function of the files.
@@ -32,6 +35,8 @@ pub enum FileFunction {
     Numbers,
     Strings,
     Picture,
+    Material,
+    Metadata,
 }
 
 /// Names, functions, and the fewest and most arguments.
@@ -43,7 +48,9 @@ pub const TABLE: &[(&str, FileFunction, usize, usize)] = &[
     ("readTextFile", FileFunction::Text, 1, 1),
     ("readFloatTable", FileFunction::Numbers, 1, 1),
     ("readStringTable", FileFunction::Strings, 1, 1),
+    ("readMaterial", FileFunction::Material, 1, 1),
     ("imageInfo", FileFunction::Picture, 2, 2),
+    ("assetMetadata", FileFunction::Metadata, 3, 3),
 ];
 
 impl FileFunction {
@@ -55,7 +62,10 @@ impl FileFunction {
 
     /// Whether it wants what stands in files.
     pub fn reads(self) -> bool {
-        matches!(self, Self::Text | Self::Numbers | Self::Strings)
+        matches!(
+            self,
+            Self::Text | Self::Numbers | Self::Strings | Self::Material | Self::Metadata
+        )
     }
 
     /// The value for these arguments; Err says what is wrong. `draw` gives a number from 0 to 1.
@@ -83,6 +93,21 @@ impl FileFunction {
                 Ok(Value::text(found.get(place).copied().unwrap_or("")))
             }
             Self::Text => Ok(Value::text(content(files, name)?)),
+            Self::Metadata => {
+                let (key, default) = (args[1].to_string(), &args[2]);
+                let told = files
+                    .metadata
+                    .get(plain(name))
+                    .and_then(|all| all.get(&key));
+                let told = told.filter(|told| told.kind() == default.kind());
+                Ok(told.unwrap_or(default).clone())
+            }
+            // Of a format that nobody has written down there is nothing to tell.
+            Self::Material if !is_mtl(name) => Ok(material_files::properties("", "")),
+            Self::Material => {
+                let folder = &plain(name)[..plain(name).rfind('/').map_or(0, |at| at + 1)];
+                Ok(material_files::properties(content(files, name)?, folder))
+            }
             Self::Strings => table(content(files, name)?, Value::text),
             Self::Numbers => table(content(files, name)?, |cell| {
                 Value::Number(cell.trim().parse().unwrap_or(f64::NAN))
@@ -99,6 +124,11 @@ impl FileFunction {
             }
         }
     }
+}
+
+/// Whether a name is that of a file of materials that can be read.
+pub fn is_mtl(name: &str) -> bool {
+    name.to_ascii_lowercase().ends_with(".mtl")
 }
 
 /// A name without what leads to the project's own folder.

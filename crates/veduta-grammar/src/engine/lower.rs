@@ -56,6 +56,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             asks_beside: false,
             lists_files: false,
             reads_files: false,
+            asks_place: false,
             trims: false,
             tags: false,
             diagnostics: vec![Vec::new(); program.units.len()],
@@ -67,6 +68,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
         lowered.code.asks_beside |= lowering.asks_beside;
         lowered.code.lists_files |= lowering.lists_files;
         lowered.code.reads_files |= lowering.reads_files;
+        lowered.code.asks_place |= lowering.asks_place;
         lowered.code.trims |= lowering.trims;
         lowered.code.tags |= lowering.tags;
         for (all, new) in lowered.diagnostics.iter_mut().zip(lowering.diagnostics) {
@@ -168,6 +170,7 @@ pub(super) struct Lowering<'a> {
     pub asks_beside: bool,
     pub lists_files: bool,
     pub reads_files: bool,
+    pub asks_place: bool,
     pub trims: bool,
     pub tags: bool,
     checked: &'a Checked,

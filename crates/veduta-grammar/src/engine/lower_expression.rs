@@ -4,7 +4,7 @@ use crate::ast::{self, ExprKind as Ast, Ident};
 use crate::{Span, Target};
 
 use super::code::{ComponentValue, Expr, ExprKind};
-use super::files::FileFunction;
+use super::files::{is_mtl, FileFunction};
 use super::functions::Function;
 use super::lower::{Lowering, Number};
 use super::measures::Measure;
@@ -134,6 +134,19 @@ impl Lowering<'_> {
     /// A function of the project's files, of the current shape, or of those around it.
     fn of_shape(&mut self, name: Ident, args: Vec<Expr>) -> ExprKind {
         if let Some((function, fewest, most)) = FileFunction::named(self.text(name)) {
+            if let (
+                FileFunction::Material,
+                [Expr {
+                    kind: ExprKind::Text(path),
+                    ..
+                }],
+            ) = (function, &args[..])
+            {
+                if !is_mtl(path) {
+                    let message = "`readMaterial` reads MTL files: of others it tells nothing, and shapes keep their material";
+                    self.warn(name.span, message.to_string());
+                }
+            }
             if (fewest..=most).contains(&args.len()) {
                 self.lists_files = true;
                 self.reads_files |= function.reads();
@@ -152,6 +165,7 @@ impl Lowering<'_> {
         }
         match Query::named(self.text(name)) {
             Some(query) => {
+                self.asks_place |= query == Query::Geographic;
                 self.asks |= query.is_about_others();
                 self.asks_beside |= query.is_about_others() && !is_within(&args);
                 ExprKind::Query { query, args }

@@ -5,7 +5,7 @@ use veduta_geometry::solid::{weld, Face, Mesh};
 
 use crate::shape::{components, is_meant, Form, Frames, Geometry, Kind, Surroundings, TOLERANCE};
 
-use super::marks::is_asked;
+use super::marks::{is_asked, Tags};
 use super::state::State;
 use super::texture_map::map_of;
 use super::value::Value;
@@ -97,15 +97,22 @@ impl Measure {
         TABLE.iter().map(|entry| entry.0)
     }
 
-    /// The value for a shape; `object` are the axes of the start shape.
-    pub fn of(self, state: &State, object: DMat3, args: &[Value]) -> Result<Value, String> {
+    /// The value for a shape; `object` are the axes of the start shape, `tags` what it has besides its
+    /// own.
+    pub fn of(
+        self,
+        state: &State,
+        object: DMat3,
+        tags: Tags,
+        args: &[Value],
+    ) -> Result<Value, String> {
         let form = &state.form;
         Ok(match self {
             Self::Area => Value::Number(area(form, object, args)?),
             Self::IsOriented => Value::Bool(is_oriented(form, object, args)?),
             Self::Height => Value::Number(height(form)),
-            Self::HasTags => Value::Bool(has_tags(state, args)),
-            Self::Tags => tags(state),
+            Self::HasTags => Value::Bool(has_tags(state, tags, args)),
+            Self::Tags => tags_of(state, tags),
             Self::Groups => parts(state, Kind::Groups),
             Self::Materials => parts(state, Kind::Materials),
             Self::HasUvs => Value::Bool(has_uvs(state, args)),
@@ -230,10 +237,11 @@ fn height(form: &Form) -> f64 {
 }
 
 /// Whether a face has a tag that is asked for, or any.
-fn has_tags(state: &State, args: &[Value]) -> bool {
+fn has_tags(state: &State, tags: Tags, args: &[Value]) -> bool {
     let query = args.first().map(ToString::to_string);
-    let all = state.all_tags();
-    all.iter()
+    let own = state.all_tags();
+    own.iter()
+        .chain(&tags)
         .any(|tag| query.as_ref().is_none_or(|query| is_asked(tag, query)))
 }
 
@@ -254,8 +262,9 @@ fn has_uvs(state: &State, args: &[Value]) -> bool {
         .is_some_and(Option::is_some)
 }
 
-fn tags(state: &State) -> Value {
-    Value::list(state.all_tags().into_iter().map(Value::Text).collect())
+fn tags_of(state: &State, mut tags: Tags) -> Value {
+    tags.extend(state.all_tags());
+    Value::list(tags.into_iter().map(Value::Text).collect())
 }
 
 fn angle(mesh: &Mesh, args: &[Value]) -> Result<f64, String> {

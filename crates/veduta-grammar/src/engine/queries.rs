@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use veduta_geometry::solid::{relation, Relation};
 
-use crate::shape::{box_distance, Kind, Scope};
+use crate::shape::{box_distance, Scope};
 use crate::Span;
 
 use super::converting::convert;
@@ -46,8 +46,21 @@ pub enum Query {
     Naming(bool),
     /// `convert(...)`: see [`convert`].
     Convert,
+    /// `edgeAttr.getFloat(name)` and its like: what an attribute of edges says of the start shape's edge
+    /// that the shape stands for.
+    Edge(EdgeKind),
+    /// `getGeoCoord(x | y | lon | lat)`: where the scope's origin lies on Earth.
+    Geographic,
     /// `getMaterial(used | shape | geometry, changed | all)`: names and values, a row of each.
     Material,
+}
+
+/// What an attribute of edges is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    Number,
+    Text,
+    Bool,
 }
 
 const TABLE: &[(&str, Query)] = &[
@@ -57,6 +70,10 @@ const TABLE: &[(&str, Query)] = &[
     ("contextCompare", Query::Rank),
     ("contextCount", Query::Count),
     ("convert", Query::Convert),
+    ("edgeAttr.getBool", Query::Edge(EdgeKind::Bool)),
+    ("edgeAttr.getFloat", Query::Edge(EdgeKind::Number)),
+    ("edgeAttr.getString", Query::Edge(EdgeKind::Text)),
+    ("getGeoCoord", Query::Geographic),
     ("getMaterial", Query::Material),
     ("getTreeKey", Query::TreeKey),
     ("inside", Query::Inside),
@@ -81,9 +98,14 @@ impl Query {
 
     /// Whether the answer has to do with other shapes.
     pub fn is_about_others(self) -> bool {
-        !matches!(
+        matches!(
             self,
-            Self::TreeKey | Self::AssetInfo | Self::Naming(_) | Self::Convert | Self::Material
+            Self::Inside
+                | Self::Overlaps
+                | Self::Touches
+                | Self::Distance
+                | Self::Count
+                | Self::Rank
         )
     }
 
@@ -94,9 +116,7 @@ impl Query {
             Self::Distance => Value::Number(f64::INFINITY),
             Self::Count | Self::Rank => Value::Number(0.0),
             Self::TreeKey => Value::text("0;"),
-            Self::AssetInfo | Self::Naming(_) | Self::Convert | Self::Material => {
-                Value::list(Vec::new())
-            }
+            _ => Value::list(Vec::new()),
         }
     }
 
@@ -136,6 +156,8 @@ impl Run<'_> {
         match query {
             Query::TreeKey => Ok(self.tree_key()),
             Query::AssetInfo => self.asset_info(args, span),
+            Query::Edge(kind) => Ok(self.of_edge(kind, args, state)),
+            Query::Geographic => Ok(self.geographic(args, state)),
             Query::Naming(as_array) => self.asset_names(args, as_array, span),
             Query::Convert => {
                 convert(args, state, self.first()).map_err(|message| Fault::at(span, message))
@@ -200,44 +222,6 @@ impl Run<'_> {
         own.map(Around::from)
             .chain(others)
             .filter(move |one| one.shape.label.as_deref() == Some(label))
-    }
-
-    fn asset_info(&self, args: &[Value], span: Span) -> Result<Value, Fault> {
-        let (name, what) = (args[0].to_string(), args[1].to_string());
-        let asset = self.options.assets.get(name.as_str());
-        let asset = asset.ok_or_else(|| Fault::missing(span, name.as_str().into()))?;
-        let (low, size) = asset.bounds();
-        let (kind, axis) = what.split_at_checked(1).unwrap_or_default();
-        let axis = "xyz".find(axis).unwrap_or(0);
-        Ok(Value::Number(match kind {
-            "s" => size[axis],
-            _ => low[axis],
-        }))
-    }
-
-    fn asset_names(&self, args: &[Value], as_array: bool, span: Span) -> Result<Value, Fault> {
-        let name = args[0].to_string();
-        let asset = self.options.assets.get(name.as_str());
-        let asset = asset.ok_or_else(|| Fault::missing(span, name.as_str().into()))?;
-        let kind = match args.get(1).map(ToString::to_string).as_deref() {
-            Some("g") | None => Kind::Groups,
-            Some("m") => Kind::Materials,
-            Some(other) => {
-                let message = format!("`{other}` names no parts of an asset: g or m");
-                return Err(Fault::at(span, message));
-            }
-        };
-        let names = asset.part_names(kind);
-        Ok(if as_array {
-            Value::list(names.into_iter().map(Value::Text).collect())
-        } else {
-            Value::text(
-                &names
-                    .iter()
-                    .map(|name| format!("{name};"))
-                    .collect::<String>(),
-            )
-        })
     }
 
     /// Whether one of the closed shapes that are asked for lies as the question says.

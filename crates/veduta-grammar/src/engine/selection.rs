@@ -146,9 +146,31 @@ impl Run<'_> {
         scene: &mut Scene<'_>,
     ) -> Result<bool, Fault> {
         match selector {
-            Selector::Word(word) => choosing.is_meant(word, at, span),
+            Selector::Word(word) => self.is_meant(choosing, word, at, span),
             Selector::Value(_, expr) => self.holds(expr, choosing, at, scene),
         }
+    }
+
+    /// Whether a word means a component. Where it is known which edges of the start shape have a
+    /// street before them, `street.front` means what stands there, and its like none of that.
+    fn is_meant(
+        &self,
+        choosing: &Choosing,
+        word: &str,
+        at: usize,
+        span: Span,
+    ) -> Result<bool, Fault> {
+        let side = match word.strip_prefix("street.") {
+            Some("side") | None => return choosing.is_meant(word, at, span),
+            Some(_) if !self.has_streets() => return choosing.is_meant(word, at, span),
+            Some(side) => side,
+        };
+        let fronts =
+            choosing.is_meant("object.side", at, span)? && self.at_street(&choosing.found[at].form);
+        Ok(match side {
+            "front" => fronts,
+            _ => !fronts && choosing.is_meant(word, at, span)?,
+        })
     }
 
     fn holds(
@@ -159,7 +181,7 @@ impl Run<'_> {
         scene: &mut Scene<'_>,
     ) -> Result<bool, Fault> {
         match &expr.kind {
-            ExprKind::Word(word) => choosing.is_meant(word, at, expr.span),
+            ExprKind::Word(word) => self.is_meant(choosing, word, at, expr.span),
             ExprKind::Unary {
                 op: UnaryOp::Not,
                 operand,

@@ -52,6 +52,8 @@ pub struct Place {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Extra {
     pub tags: BTreeSet<Arc<str>>,
+    /// Whether it has the tags of the start shape's edges: `setTagsFromEdgeAttrs`.
+    pub edge_tags: bool,
     /// What made the shape as a whole: its faces get tags by that.
     pub made: Option<Made>,
     /// The tagged surfaces that the shape was put together from.

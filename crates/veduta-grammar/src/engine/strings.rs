@@ -1,7 +1,8 @@
 //! Functions of strings and of the names of files.
 
 use super::functions::{text, Function};
-use super::value::Value;
+use super::regexes;
+use super::value::{Value, MAX_ELEMENTS};
 
 /// Names, functions, and the fewest and most arguments.
 pub const TABLE: &[(&str, Function, usize, usize)] = {
@@ -21,15 +22,18 @@ pub const TABLE: &[(&str, Function, usize, usize)] = {
     ]
 };
 
-/// `splitString(text, between)`: an array.
+/// `splitString(text, between)`: an array. What separates is a regular expression after `$`; where it
+/// is nothing, each letter is one part, between two that are empty.
 fn split(args: &[Value]) -> Result<Value, String> {
     let (all, between) = (text(args, 0)?, text(args, 1)?);
-    let parts = if between.is_empty() {
-        vec![Value::text(all)]
-    } else {
-        all.split(between).map(Value::text).collect()
+    let parts = match between.strip_prefix('$') {
+        Some(expression) => regexes::split(all, expression)?,
+        None => all.split(between).take(MAX_ELEMENTS + 1).collect(),
     };
-    Ok(Value::list(parts))
+    if parts.len() > MAX_ELEMENTS {
+        return Err(format!("an array of more than {MAX_ELEMENTS} elements"));
+    }
+    Ok(Value::list(parts.into_iter().map(Value::text).collect()))
 }
 
 /// `findLast(text, part)`: the place of the last; -1 where there is none.

@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from veduta.grammar.assets import doors, hoods, railings, roofs, stonework, windows
+from veduta.grammar.assets import doors, hoods, plants, railings, roofs, shops, stonework, windows
 from veduta.grammar.assets.asset import Asset
 
 PREFIX = "builtin/"
@@ -31,9 +31,15 @@ MAKERS: dict[str, Maker] = {
     "door-double": doors.double,
     "door-single": doors.single,
     "door-glazed": doors.glazed,
+    "door-entrance": doors.entrance,
     "door-garage": doors.garage,
     "door-step": doors.step,
-    "shop-front": doors.shop,
+    "shop-front": shops.glazed,
+    "shop-window": shops.window,
+    "shop-door": shops.door,
+    "shop-shelves": shops.shelves,
+    "shop-counter": shops.counter,
+    "entrance-hall": shops.hall,
     "railing-iron": railings.iron,
     "railing-bars": railings.bars,
     "railing-balustrade": railings.balustrade,
@@ -54,6 +60,9 @@ MAKERS: dict[str, Maker] = {
     "dormer-shed": roofs.shed,
     "dormer-gabled": roofs.gabled,
     "skylight": roofs.skylight,
+    "tree-broad": plants.broad,
+    "tree-slim": plants.slim,
+    "shrub": plants.shrub,
     "chimney-stack": roofs.stack,
     "chimney-single": roofs.single,
     "chimney-pot": roofs.one_pot,

@@ -97,42 +97,6 @@ def transom(model: Model, x: Span, y: Span, panes: int, level: int) -> None:
         bars(model, x, (y[0] + 0.07, y[1]), panes, 1, (-0.045, -0.02), 0.03, "leaf")
 
 
-def shop(name: str, level: int) -> Asset:
-    """A wooden shop front: sill panels, three panes, a fascia with a cornice, 3.0 m by 3.2 m."""
-    model = Model(LEAF, PANE, BRASS)
-    model.pane((0.0, 3.0), (0.5, 2.55), -0.12, "pane")
-    model.box((0.0, 0.0, -0.15), (3.0, 0.55, 0.0), "leaf", without="back left right")
-    model.box((0.0, 2.5, -0.15), (3.0, 3.2, 0.02), "leaf", without="back left right")
-    for x in ((0.0, 0.14), (2.86, 3.0)):
-        model.box((x[0], 0.0, -0.15), (x[1], 3.0, 0.05), "leaf", without="back")
-    if level == 2:
-        model.box((0.96, 0.55, -0.12), (1.02, 2.5, -0.06), "leaf", without="back bottom top")
-        model.box((1.98, 0.55, -0.12), (2.04, 2.5, -0.06), "leaf", without="back bottom top")
-        return model.asset(name)
-    for at in (0.98, 2.02):
-        low, high = (at - 0.03, 0.55, -0.12), (at + 0.03, 2.5, -0.05)
-        model.box(low, high, "leaf", without="back bottom top")
-    model.box((0.14, 2.05, -0.12), (2.86, 2.1, -0.06), "leaf", without="back left right")
-    for k in range(3):
-        left = 0.17 + k * 0.9
-        raised(model, (left, left + 0.85), (0.08, 0.48), (0.0, 0.03), "leaf", level)
-    model.box((0.14, 0.52, 0.0), (2.86, 0.58, 0.05), "leaf", without="back")
-    raised(model, (0.2, 2.8), (2.6, 2.98), (0.02, 0.045), "leaf", level)
-    section = [(0.02, 3.02), (0.1, 3.04), (0.14, 3.1), (0.18, 3.12), (0.18, 3.2), (0.02, 3.2)]
-    model.prism(section, (0.0, 3.0), "leaf", axis="x")
-    if level == 0:
-        for x in ((0.03, 0.11), (2.89, 2.97)):
-            raised(model, x, (0.6, 2.4), (0.05, 0.065), "leaf", level)
-        for at in (0.98, 2.02):
-            model.lathe(
-                [(0.012, 0.58), (0.02, 0.62), (0.012, 0.66), (0.012, 1.98), (0.02, 2.03)],
-                (at, -0.04),
-                "leaf",
-                sides=6,
-            )
-    return model.asset(name)
-
-
 def garage(name: str, level: int) -> Asset:
     """A sectional garage door, 2.5 m by 2.2 m."""
     model = Model(LEAF, STEEL)
@@ -154,11 +118,25 @@ def garage(name: str, level: int) -> Asset:
 def glazed(name: str, level: int) -> Asset:
     """A modern entrance: a glazed leaf beside a fixed light, 1.8 m by 2.3 m."""
     model = Model(FRAME, PANE, STEEL)
+    for x in ((0.06, 1.07), (1.13, 1.74)):
+        model.pane(x, (0.0, 2.24), -0.04, "pane")
+    _entrance(model, level)
+    return model.asset(name)
+
+
+def entrance(name: str, level: int) -> Asset:
+    """The same without panes, to be seen through, 1.8 m by 2.3 m."""
+    model = Model(FRAME, STEEL)
+    _entrance(model, level)
+    return model.asset(name)
+
+
+def _entrance(model: Model, level: int) -> None:
+    """The frame of a modern entrance and that of its leaf."""
     path = [(1.8, 0.0), (1.8, 2.3), (0.0, 2.3), (0.0, 0.0)]
     model.sweep(moulding(0.06, BACK, 0.0, 1), path, "frame")
     model.box((1.07, 0.0, BACK), (1.13, 2.24, 0.0), "frame", without="back bottom top")
     for x in ((0.06, 1.07), (1.13, 1.74)):
-        model.pane(x, (0.0, 2.24), -0.04, "pane")
         if level < 2:
             model.sweep(
                 moulding(0.07, -0.06, -0.015, 1), rectangle_of(x, (0.0, 2.24)), "frame", closed=True
@@ -167,7 +145,6 @@ def glazed(name: str, level: int) -> Asset:
         model.lathe([(0.014, 0.6), (0.014, 1.7)], (0.97, 0.04), "steel", sides=8)
         for y in (0.7, 1.6):
             model.box((0.962, y, -0.015), (0.978, y + 0.016, 0.04), "steel", without="back")
-    return model.asset(name)
 
 
 def step(name: str, level: int) -> Asset:

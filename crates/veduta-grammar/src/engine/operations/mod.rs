@@ -125,6 +125,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("setMaterial", appearance::set_material, 1, 1),
     ("setPivot", pivots::set_pivot, 2, 2),
     ("setback", setbacks::setback, 1, 2),
+    ("setTagsFromEdgeAttrs", tags::of_edges, 0, 0),
     ("setbackPerEdge", setbacks::per_edge, 1, 2),
     ("setbackToArea", setbacks::to_area, 1, 3),
     ("setupProjection", textures::set_up, 4, 7),

@@ -39,9 +39,18 @@ pub fn delete(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             mark.tags.retain(|tag| !is_asked(tag, &query));
         }
         if op.args.is_empty() {
+            extra.edge_tags = false;
             extra.made = None;
         }
     }
+    frame.changed();
+    Ok(())
+}
+
+/// `setTagsFromEdgeAttrs()`: from here on a shape has a tag `edgeattr.NAME.TEXT` of each attribute of
+/// texts of the start shape's edges: of the edge that it stands for when it is asked.
+pub fn of_edges(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    frame.state.extra_mut().edge_tags = true;
     frame.changed();
     Ok(())
 }
