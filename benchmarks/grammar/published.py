@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import runpy
 import sys
 import time
 from collections.abc import Mapping
@@ -16,10 +17,8 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent))
-sys.path.insert(0, str(HERE.parent.parent / "tests" / "unit" / "grammar"))
+TESTS = HERE.parent.parent / "tests" / "unit" / "grammar"
 
-import test_published_manner as first  # noqa: E402
-import test_published_more as more  # noqa: E402
 from record import Row, keep_or_print  # noqa: E402
 
 from veduta.grammar.deriving import deriver  # noqa: E402
@@ -44,8 +43,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--keep", action="store_true", help="keep the table in benchmarks/results")
     keep = parser.parse_args().keep
-    forty = [(name, first.FOLDER / path, wanted) for name, (path, wanted) in first.CASES.items()]
-    others = [(name, more.FOLDER / f"{name}.cga", wanted) for name, wanted in more.CASES.items()]
+    first = runpy.run_path(str(TESTS / "test_published_manner.py"))
+    more = runpy.run_path(str(TESTS / "test_published_more.py"))
+    forty = [
+        (name, first["FOLDER"] / path, wanted) for name, (path, wanted) in first["CASES"].items()
+    ]
+    others = [
+        (name, more["FOLDER"] / f"{name}.cga", wanted) for name, wanted in more["CASES"].items()
+    ]
     sets = {"the forty": forty, "fifteen more": others}
     rows: list[Row] = []
     for told, files in sets.items():
