@@ -11,10 +11,14 @@ from veduta.run.errors import InputError
 
 ALONG = 1e-6
 """By so much (share) the two sides of a square cell may differ."""
+CELL_M = (0.005, 1000.0)
+"""Smallest and largest side of a cell: of what is scanned, and of what lies on a whole country."""
+FARTHEST_M = 1e8
+"""No CRS in metres has places farther from its origin."""
 
 
 def require_grid(path: Path, place: Affine, crs: CRS | None) -> None:
-    """InputError where cells are not square, do not lie along north, or are in degrees.
+    """InputError where cells are not square, not along north, of no usual size, or in degrees.
 
     place: from columns and rows (down) to the CRS.
     """
@@ -24,3 +28,9 @@ def require_grid(path: Path, place: Affine, crs: CRS | None) -> None:
         raise InputError(path, fault, "Warp it (gdalwarp -tr 1 1).")
     if crs is not None and crs.is_geographic:
         raise InputError(path, f"has degrees ({crs.to_string()})", "Project it to a CRS in metres.")
+    there = all(abs(value) <= FARTHEST_M for value in (place.c, place.f))  # NaN is nowhere
+    if not there or not CELL_M[0] <= place.a <= CELL_M[1]:
+        fault = f"has cells of {place.a:g} m from ({place.c:g}, {place.f:g}) on"
+        raise InputError(
+            path, fault, "Check the place that it says, or warp it (gdalwarp -tr 1 1)."
+        )
