@@ -18,6 +18,7 @@ from veduta.facade.document import FacadeDocument, Source  # noqa: E402
 from veduta.facade.eyes import look  # noqa: E402
 from veduta.facade.options import FacadeOptions, RectifyOptions  # noqa: E402
 from veduta.facade.rectify import rectify  # noqa: E402
+from veduta.facade.style.elevation import instance_boxes  # noqa: E402
 from veduta.facade.style.grammar import DEPTH_M, StyleGrammar, style_grammar  # noqa: E402
 from veduta.facade.style.observed import Observed, observe  # noqa: E402
 from veduta.facade.style.prior import Real  # noqa: E402
@@ -44,13 +45,16 @@ _ONE = Real(1.0, 1.0, 0.99, 1.01)
 class TrueFront:
     """A rendered front: the structure that it was drawn from, on a lot `width_m` wide.
 
-    pixels: (h, w, 3) uint8 sRGB, fronto-parallel, with the lot's borders as its own.
+    pixels: (h, w, 3) uint8 sRGB, fronto-parallel, with the lot's borders as its own. placed: lower
+    and upper corners (n, 3) in metres of the library's assets, by name.
     """
 
     style: str
     state: State
     width_m: float
     pixels: NDArray[np.uint8]
+    px_per_m: float
+    placed: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 @dataclass(frozen=True)
@@ -62,7 +66,7 @@ class ReadFront:
     reason: str = ""
 
 
-def true_front(style: str, seed: int) -> TrueFront:
+def true_front(style: str, seed: int, long_px: int = LONG_PX) -> TrueFront:
     """A front of a style by chance: attributes as the rules draw them, choices, width."""
     rng = np.random.default_rng([seed, len(style)])
     width = float(rng.uniform(*WIDTHS_M))
@@ -71,8 +75,9 @@ def true_front(style: str, seed: int) -> TrueFront:
     derived = grammar.complete(state, rng)
     if derived is None:
         raise ValueError(f"{style} makes nothing of {width:.1f} m")
-    part, top = _part(grammar, derived.state, width, seed)
-    return TrueFront(style, derived.state, width, _photo(part, width, top, seed))
+    part, top, placed = _part(grammar, derived.state, width, seed)
+    pixels, scale = _photo(part, width, top, seed, long_px)
+    return TrueFront(style, derived.state, width, pixels, scale, placed)
 
 
 def _drawn(grammar: StyleGrammar, width_m: float, seed: int) -> dict[str, bool | float | str]:
@@ -83,8 +88,10 @@ def _drawn(grammar: StyleGrammar, width_m: float, seed: int) -> dict[str, bool |
     return {name: own.get(name, value) for name, value in start.items() if name != SCALE}
 
 
-def _part(grammar: StyleGrammar, state: State, width_m: float, seed: int) -> tuple[Part, float]:
-    """The building with the structure's choices, and its highest point."""
+def _part(
+    grammar: StyleGrammar, state: State, width_m: float, seed: int
+) -> tuple[Part, float, dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]]:
+    """The building with the structure's choices, its highest point, and where assets stand."""
     attributes = {name: value for name, value in state.attributes.items() if name != SCALE}
     edits = [
         Edit(path, taken.rule, choices=taken.alternatives).core
@@ -104,18 +111,24 @@ def _part(grammar: StyleGrammar, state: State, width_m: float, seed: int) -> tup
     columns = tree.columns()
     assets = grammar.rules.library.assets_of(columns)
     part = build_part(columns, "front", assets, grammar.rules.textures)
-    return turned(part, np.array([1.0, 0.0])), float(part.bounds_m[1][2])
+    low, high = instance_boxes(columns, assets)
+    names = [name.rpartition("/")[2].partition("@")[0] for name in columns.asset_names]
+    own = np.array([names[place] for place in columns.instance_asset.tolist()])
+    placed = {name: (low[own == name], high[own == name]) for name in set(names)}
+    return turned(part, np.array([1.0, 0.0])), float(part.bounds_m[1][2]), placed
 
 
 def _lot(width_m: float) -> list[list[tuple[float, float, float]]]:
     return [[(0.0, 0.0, 0.0), (width_m, 0.0, 0.0), (width_m, DEPTH_M, 0.0), (0.0, DEPTH_M, 0.0)]]
 
 
-def _photo(part: Part, width_m: float, top_m: float, seed: int) -> NDArray[np.uint8]:
-    """From far away and straight ahead, the sun over the street."""
+def _photo(
+    part: Part, width_m: float, top_m: float, seed: int, long_px: int
+) -> tuple[NDArray[np.uint8], float]:
+    """From far away and straight ahead, the sun over the street; with the pixels of a metre."""
     rng = np.random.default_rng([seed, 1])
     height = top_m + ABOVE_M
-    scale = LONG_PX / max(height, width_m)
+    scale = long_px / max(height, width_m)
     size = round(width_m * scale), round(height * scale)
     middle = (0.5 * width_m, -FAR_M, 0.5 * height)
     camera = look_at(middle, (middle[0], 0.0, middle[2]), size, scale * FAR_M)
@@ -124,7 +137,7 @@ def _photo(part: Part, width_m: float, top_m: float, seed: int) -> NDArray[np.ui
     radiance = render(RayScene([(part, np.eye(4))]), camera, light, 1, seed)
     exposed = np.clip(radiance / np.percentile(radiance, 97), 0.0, 1.0)
     noisy = exposed ** (1 / 2.2) + rng.normal(0.0, 0.012, exposed.shape)
-    return np.asarray(np.rint(255.0 * np.clip(noisy, 0.0, 1.0)), np.uint8)
+    return np.asarray(np.rint(255.0 * np.clip(noisy, 0.0, 1.0)), np.uint8), scale
 
 
 def read_front(pixels: NDArray[np.uint8], name: str) -> ReadFront:

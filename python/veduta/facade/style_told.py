@@ -13,11 +13,14 @@ FOLDER = "style"
 
 @dataclass(frozen=True)
 class StyleTold:
-    """Tables and pictures of the report, and what lies in the folder `style`, by name."""
+    """Tables and pictures of the report, what lies in the folder `style`, by name, and the line for
+    the terminal.
+    """
 
     tables: tuple[Table, ...]
     pictures: tuple[Picture, ...]
     files: Mapping[str, bytes]
+    line: str = ""
 
     def write(self, folder: Path) -> None:
         """Write the files into a folder of their own."""

@@ -54,7 +54,7 @@ def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevati
         np.minimum.at(low, feature, np.minimum.reduceat(derived.positions_m, starts))
         np.maximum.at(high, feature, np.maximum.reduceat(derived.positions_m, starts))
     if len(derived.instance_feature):
-        bottom, top = _instances(derived, assets)
+        bottom, top = instance_boxes(derived, assets)
         np.minimum.at(low, derived.instance_feature, bottom)
         np.maximum.at(high, derived.instance_feature, top)
     front = np.isfinite(low[:, 0]) & (high[:, 1] < DEEPEST_M)
@@ -92,7 +92,7 @@ def _roofs(derived: _core.DerivedLot, classes: list[str]) -> tuple[NDArray[np.fl
     return tuple(flat[a:b] for a, b in zip(firsts.tolist(), ends.tolist(), strict=True))
 
 
-def _instances(
+def instance_boxes(
     derived: _core.DerivedLot, assets: Mapping[str, Asset]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The lower and upper corner (i, 3) of each instance."""

@@ -55,7 +55,7 @@ class InferParameters:
     were fitted together, by the chance that they give to what is right, on renders of five styles
     (with the own style, and with it taken away: then none is right) and on pictures of CMP that the
     eyes were trained on, which are taken to have none of the styles
-    (`benchmarks/facade/style_odds.py`).
+    (`benchmarks/facade/style_odds.py`): few of each yet, four and six.
     """
 
     assumed: Real = ASSUMED
@@ -65,8 +65,8 @@ class InferParameters:
     hopeless_nats: float = 150.0
     near_nats: float = 60.0
     near_steps: int = 150
-    none_counts: float = 0.65
-    temperature: float = 1.0
+    none_counts: float = 1.0
+    temperature: float = 13.0
 
 
 USUAL = InferParameters()

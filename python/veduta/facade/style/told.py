@@ -25,6 +25,8 @@ Cells = float | int | str | None
 SAMPLES = 5
 _PICTURE_PX = 300
 _MOST_ODDS = 1000
+CAVEAT = "odds that few fronts were compared for, and may be too sure"
+"""What is said with odds wherever they are told."""
 
 
 def style_line(found: StyleFound) -> str:
