@@ -166,7 +166,7 @@ function aimShadow(sun: DirectionalLight, toSun: Vector3, centre: Vector3, radiu
   sun.shadow.mapSize.set(size, size);
   sun.shadow.bias = -0.0004;
   sun.shadow.normalBias = Math.min(0.06, (2 * radius) / size);
-  sun.shadow.radius = 3;
+  sun.shadow.radius = 1; // wider, its samples show as dots
   camera.updateProjectionMatrix();
   sun.shadow.needsUpdate = true;
 }
