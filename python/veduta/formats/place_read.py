@@ -109,6 +109,7 @@ def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
     known_by = Provenance(told) if told in set(Provenance) else Provenance.MEASURED
     materials: dict[Material, int] = {}
     features: dict[int | SemanticClass, int] = {}
+    named: dict[str, int] = {}
     rows = building.surface or (-1,) * len(building.polygons)
     for rings, known, row in zip(building.polygons, building.classes, rows, strict=True):
         semantic = known or SemanticClass.OTHER
@@ -116,7 +117,10 @@ def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
         # A file that tells of no surface more than its class has one of each class.
         key = row if said.name or said.colour else semantic
         if key not in features:
-            features[key] = builder.feature(semantic, known_by, said.name or semantic.value)
+            name = said.name or semantic.value
+            count = named[name] = named.get(name, 0) + 1
+            name = name if count == 1 else f"{name} {count}"
+            features[key] = builder.feature(semantic, known_by, name)
         material = Material(semantic.value, said.colour or (1.0, 1.0, 1.0))
         if material not in materials:
             materials[material] = builder.material(material)

@@ -101,7 +101,9 @@ def test_surfaces_keep_their_colours_classes_and_rules(town: Path) -> None:
         {"type": "GroundSurface"},
         {"type": "RoofSurface", "class": "roof", "rule": "Tiles", "colour": "#800000"},
         {"type": "WallSurface", "class": "shop", "rule": "Shop", "colour": "#00ff33"},
+        {"type": "WallSurface", "class": "shop", "rule": "Shop", "colour": "#00ff33"},
     ]
+    house["geometry"][0]["semantics"]["values"] = [[0, 1, 2, 2, 3, 3]]
     house["geometry"][0]["semantics"]["surfaces"] = told
     about = {"class": "cornice", "rule": "Ledge", "colour": "#0000ff"}
     ledge = {"type": "MultiSurface", "lod": "3", "boundaries": [[[0, 1, 5]]]}
@@ -121,5 +123,6 @@ def test_surfaces_keep_their_colours_classes_and_rules(town: Path) -> None:
         "ground": ("ground", (255, 255, 255)),
         "Tiles": ("roof", (128, 0, 0)),
         "Shop": ("shop", (0, 255, 51)),
+        "Shop 2": ("shop", (0, 255, 51)),
         "Ledge": ("cornice", (0, 0, 255)),
     }
