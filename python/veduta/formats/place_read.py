@@ -7,12 +7,13 @@ are taken to be z-up.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta import _core
 from veduta.formats.building_faces import MOST_CORNERS, BuildingFaces, CityFile, SurfaceTold
 from veduta.formats.citygml_read import read_citygml
 from veduta.formats.cityjson_read import read_cityjson
@@ -25,12 +26,16 @@ from veduta.place.builder import PartBuilder
 from veduta.place.features import feature_table
 from veduta.place.material import Material
 from veduta.place.mesh import Mesh
-from veduta.place.part import Part
+from veduta.place.part import PLANE_TOLERANCE_M, Part
 from veduta.place.place import Cloud, Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.limits import limited
 
+LEFT_OUT = "polygons_left_out"
+"""Attribute of a building: how many cannot be drawn."""
+WARPED_M = 0.005
+"""Corners that leave the plane of their face by more are those of no face."""
 _CLASSES = {one.value: one for one in SemanticClass}
 
 
@@ -124,9 +129,44 @@ def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
         material = Material(semantic.value, said.colour or (1.0, 1.0, 1.0))
         if material not in materials:
             materials[material] = builder.material(material)
-        moved = [ring - origin for ring in rings]
-        builder.polygon(moved, features[key], materials[material])
+        kept = [piece for piece in _flat([ring - origin for ring in rings]) if _is_sound(piece)]
+        builder.attributes |= {} if kept else {LEFT_OUT: _more(builder.attributes)}
+        for piece in kept:
+            builder.polygon(piece, features[key], materials[material])
     return builder.build()
+
+
+def _more(attributes: Mapping[str, object]) -> int:
+    found = attributes.get(LEFT_OUT, 0)
+    return found + 1 if isinstance(found, int) else 1
+
+
+def _is_sound(rings: list[NDArray[np.float64]]) -> bool:
+    """Whether it can be triangulated: whole millimetres make slivers cross themselves."""
+    points = np.concatenate(rings).astype(np.float32).astype(np.float64)
+    ends = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]).astype(np.int64)
+    whole = np.array([0, len(rings)], dtype=np.int64)
+    return bool(_core.sound_polygons(points, ends, whole, PLANE_TOLERANCE_M)[0])
+
+
+def _flat(rings: list[NDArray[np.float64]]) -> list[list[NDArray[np.float64]]]:
+    """The polygon on its mean plane where whole millimetres warp it; triangles of one that is
+    warped more and has no holes.
+    """
+    ring = rings[0]
+    middle = ring.mean(axis=0)
+    after = np.roll(ring, -1, axis=0)
+    normal = np.cross(ring - middle, after - middle).sum(axis=0)
+    length = float(np.linalg.norm(normal))
+    if length == 0.0:
+        return [rings]
+    normal = normal / length
+    off = max(float(np.abs((one - middle) @ normal).max()) for one in rings)
+    if off <= 0.5 * PLANE_TOLERANCE_M:
+        return [rings]
+    if off > WARPED_M and len(rings) == 1:
+        return [[ring[[0, k, k + 1]]] for k in range(1, len(ring) - 1)]
+    return [[one - ((one - middle) @ normal)[:, None] * normal for one in rings]]
 
 
 def _class_of(name: str) -> SemanticClass:
