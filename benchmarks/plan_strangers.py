@@ -46,6 +46,8 @@ NOTES = (
     "Rooms right, openings: as in plan-synthetic, counted over all storeys of a family.",
     "plot and storeys were drawn by who wrote the reader, before the reader was run on any;"
     " brochure and measured by somebody who had not read the reader's code.",
+    "At the first try on these seeds: brochure 0.93 of the rooms, openings 0.84, scale 0.92;"
+    " measured 0.32, 0.47, 0.42, five of twelve not read. It was mended on seeds 41000 to 41006.",
 )
 
 
