@@ -35,7 +35,7 @@ from veduta.run.limits import limited
 LEFT_OUT = "polygons_left_out"
 """Attribute of a building: how many cannot be drawn."""
 WARPED_M = 0.005
-"""Corners that leave the plane of their face by more are those of no face."""
+"""A face whose corners leave its mean plane by more is cut into triangles between them."""
 _CLASSES = {one.value: one for one in SemanticClass}
 
 
@@ -143,15 +143,22 @@ def _more(attributes: Mapping[str, object]) -> int:
 
 def _is_sound(rings: list[NDArray[np.float64]]) -> bool:
     """Whether it can be triangulated: whole millimetres make slivers cross themselves."""
-    points = np.concatenate(rings).astype(np.float32).astype(np.float64)
-    ends = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]).astype(np.int64)
-    whole = np.array([0, len(rings)], dtype=np.int64)
+    points, ends, whole = _columns(rings)
+    points = points.astype(np.float32).astype(np.float64)
     return bool(_core.sound_polygons(points, ends, whole, PLANE_TOLERANCE_M)[0])
 
 
+def _columns(
+    rings: list[NDArray[np.float64]],
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """One polygon's corners, the first of each ring, and the first ring."""
+    ends = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]).astype(np.int64)
+    return np.concatenate(rings), ends, np.array([0, len(rings)], dtype=np.int64)
+
+
 def _flat(rings: list[NDArray[np.float64]]) -> list[list[NDArray[np.float64]]]:
-    """The polygon on its mean plane where whole millimetres warp it; triangles of one that is
-    warped more and has no holes.
+    """The polygon on its mean plane where whole millimetres warp it; of one that is warped more
+    triangles between its corners as they are, cut where they do not overlap on that plane.
     """
     ring = rings[0]
     middle = ring.mean(axis=0)
@@ -164,9 +171,19 @@ def _flat(rings: list[NDArray[np.float64]]) -> list[list[NDArray[np.float64]]]:
     off = max(float(np.abs((one - middle) @ normal).max()) for one in rings)
     if off <= 0.5 * PLANE_TOLERANCE_M:
         return [rings]
-    if off > WARPED_M and len(rings) == 1:
-        return [[ring[[0, k, k + 1]]] for k in range(1, len(ring) - 1)]
-    return [[one - ((one - middle) @ normal)[:, None] * normal for one in rings]]
+    level = [one - ((one - middle) @ normal)[:, None] * normal for one in rings]
+    return [level] if off <= WARPED_M else _cut(rings, level)
+
+
+def _cut(
+    rings: list[NDArray[np.float64]], level: list[NDArray[np.float64]]
+) -> list[list[NDArray[np.float64]]]:
+    """Triangles of the corners, as those of the level polygon lie; none where it crosses itself."""
+    points, ends, whole = _columns(level)
+    if not _core.sound_polygons(points, ends, whole, PLANE_TOLERANCE_M)[0]:
+        return []
+    indices, _, _, _ = _core.triangulate_polygons(points, ends, whole, PLANE_TOLERANCE_M)
+    return [[triangle] for triangle in np.concatenate(rings)[indices]]
 
 
 def _class_of(name: str) -> SemanticClass:

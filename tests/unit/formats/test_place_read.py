@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
 from place_sample import ball, corners_of, sample_place
 
@@ -99,3 +102,50 @@ def test_what_is_only_written_is_refused(tmp_path: Path) -> None:
     (tmp_path / "x.gpkg").write_bytes(b"")
     with pytest.raises(InputError, match=r"x\.gpkg: is a file that Veduta writes and does not"):
         veduta.load(tmp_path / "x.gpkg")
+
+
+L_SHAPE = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
+WARPED = [(x * 100, y * 100, 2 * (k % 2)) for k, (x, y) in enumerate(L_SHAPE)]
+"""cm: 7 m2 seen from above, 1 cm off its mean plane."""
+YARD = [(0, 0, 0), (400, 0, 3), (400, 400, 0), (0, 400, 3)]
+SHAFT = [(100, 100, 0), (100, 300, 3), (300, 300, 0), (300, 100, 3)]
+
+
+def city(path: Path, boundaries: Any, vertices: Any, **more: Any) -> Path:
+    house = {
+        "type": "Building",
+        "geometry": [{"type": "MultiSurface", "lod": "2", "boundaries": boundaries}],
+    }
+    document = {
+        "type": "CityJSON",
+        "version": "2.0",
+        "transform": {"scale": [0.01] * 3, "translate": [0, 0, 0]},
+        "CityObjects": {"house": house} | more,
+        "vertices": vertices,
+    }
+    path.write_text(json.dumps(document))
+    return path
+
+
+@pytest.mark.parametrize("turn", range(len(WARPED)))
+@pytest.mark.parametrize(("rings", "area"), [([WARPED], 7.0), ([YARD, SHAFT], 12.0)])
+def test_warped_polygons_keep_their_shape_and_heights(
+    rings: list[list[tuple[int, int, int]]], area: float, turn: int, tmp_path: Path
+) -> None:
+    """From whichever corner: nothing overlaps, nothing lies outside, no corner moves."""
+    turned = [ring[turn % len(ring) :] + ring[: turn % len(ring)] for ring in rings]
+    numbers = np.split(np.arange(sum(map(len, rings))), np.cumsum([len(r) for r in rings])[:-1])
+    vertices = [corner for ring in turned for corner in ring]
+    place = veduta.load(city(tmp_path / "a.city.json", [[n.tolist() for n in numbers]], vertices))
+    corners, triangles = place.parts["house"].triangles()
+    first, second, third = (corners[triangles[:, k]] for k in range(3))
+    seen = np.cross(second - first, third - first)[:, 2] / 2
+    assert seen.min() > 0
+    assert seen.sum() == pytest.approx(area, abs=1e-4)
+    flat = [[(x, y) for x, y, _ in ring] for ring in rings]
+    outline = shapely.Polygon(flat[0], flat[1:]).buffer(0.1)
+    for triangle in corners[triangles][:, :, :2] * 100:
+        assert outline.covers(shapely.Polygon(triangle))
+    found = {tuple(corner) for corner in np.round(corners * 100).astype(int).tolist()}
+    assert found == set(vertices)
+    np.testing.assert_allclose(corners * 100, np.round(corners * 100), atol=1e-3)
