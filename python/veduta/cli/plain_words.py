@@ -15,6 +15,17 @@ _FOLDERS = {"-o", "--out", "--folder", "--web"}
 _FILES = {"--print-board"}
 _MADE_FILES = {("grammar", "sample"), ("grammar", "tree")}
 """Actions whose `-o` names a file."""
+_NO_PATHS = {
+    "--address", "--at", "--author", "--colours", "--crs", "--description",
+    "--detail", "--device", "--doors", "--epipolar", "--eyes", "--georef", "--ground",
+    "--height-attribute", "--host", "--houses", "--individual", "--kind", "--layer", "--lens",
+    "--licence", "--lights", "--lot", "--mapping", "--method", "--model-up", "--pages",
+    "--pairs", "--perspective", "--roof", "--solver", "--start", "--style", "--surroundings",
+    "--time", "--title", "--to", "--up", "--view", "--weather",
+}  # fmt: skip
+"""Options whose values are words, whatever lies in the working folder under such a name."""
+_WITH_ACTIONS = {"grammar"}
+"""Verbs whose first word says what they do."""
 _OWN_PLACES = {"view", "export"}
 """What these read was written by Veduta: nothing in it has such a name."""
 
@@ -40,7 +51,7 @@ def plain_words(verb: str, words: Sequence[str]) -> Iterator[list[str]]:
     names = PlainNames()
     streams = sys.stdout, sys.stderr
     try:
-        if not is_plain(here := os.getcwd()):
+        if not is_plain(here := _here()):
             names.reading(here, below=False)
         given = [_word(verb, words, at, names) for at in range(len(words))]
         names.keep()
@@ -53,6 +64,14 @@ def plain_words(verb: str, words: Sequence[str]) -> Iterator[list[str]]:
         names.end()
 
 
+def _here() -> str:
+    """The working folder; nothing where it was removed: absolute paths need none."""
+    try:
+        return os.getcwd()
+    except FileNotFoundError:
+        return ""
+
+
 def _telling(stream: TextIO, names: PlainNames) -> TextIO:
     return stream if stream is None else cast("TextIO", _Telling(stream, names))
 
@@ -60,6 +79,8 @@ def _telling(stream: TextIO, names: PlainNames) -> TextIO:
 def _word(verb: str, words: Sequence[str], at: int, names: PlainNames) -> str:
     """One word; of `--option=PATH` and `ROOM=FILE` what is behind the sign."""
     word = words[at]
+    if at == 0 and verb in _WITH_ACTIONS:
+        return word
     before = words[at - 1] if at else ""
     head, sign, tail = word.partition("=")
     if word.startswith("-"):
@@ -70,7 +91,7 @@ def _word(verb: str, words: Sequence[str], at: int, names: PlainNames) -> str:
 
 
 def _name(verb: str, words: Sequence[str], option: str, name: str, names: PlainNames) -> str:
-    if not name or "\0" in name:
+    if not name or "\0" in name or option in _NO_PATHS:
         return name
     made_file = (verb, words[0]) in _MADE_FILES
     if option in _FILES or (option in _FOLDERS and made_file):

@@ -23,6 +23,9 @@ from veduta.run.errors import InputError
 PRIVATE_NAMES = "VEDUTA_PLAIN_NAMES"
 """The variable by which processes of the same run find the folder of links."""
 MOST_ENTRIES = 50_000
+"""Of what is given as a folder so many entries are looked at: a home or a disk would take minutes.
+A folder is looked at whole once it is begun, and folders by the order of their names.
+"""
 _TABLE = "table.json"
 _NO_UTF8 = re.compile("[\udc80-\udcff]")
 """What stands for bytes that are no UTF-8, by `surrogateescape`."""
@@ -253,7 +256,11 @@ class PlainNames:
 
 
 def _any_below(folder: str) -> bool:
-    """Whether anything in a folder has a name that is no UTF-8; of the first fifty thousand."""
+    """Whether anything in a folder has a name that is no UTF-8; of the first `MOST_ENTRIES`.
+
+    It goes down by the order of names, so that what is found is not left to the order on disk;
+    what lies beyond so many entries is not seen, and keeps its name.
+    """
     seen = 0
     for _, folders, files in os.walk(folder):
         seen += len(folders) + len(files)
@@ -261,6 +268,7 @@ def _any_below(folder: str) -> bool:
             return True
         if seen > MOST_ENTRIES:
             return False
+        folders.sort(key=os.fsencode)
     return False
 
 
