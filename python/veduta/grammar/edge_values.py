@@ -2,7 +2,8 @@
 
 A property `/edgeattr/NAME` has an element for each edge of the outline and of its holes, in the
 order of their corners in the file: a list, or a text with semicolons between its elements. Lots
-carry them as such texts.
+carry them as such texts. A semicolon behind the last element ends it, so that an empty last element
+has one of its own; files may leave that out where the number of edges tells it.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def edge_texts(properties: Mapping[str, Any]) -> dict[str, str]:
         if known is None:
             continue
         if isinstance(value, list) and len(value) <= MOST_EDGES:
-            value = ";".join(_text(one) for one in value)
+            value = _joined([_text(one) for one in value])
         if isinstance(value, str):
             found[f"{PREFIX}{known['name']}"] = value
     return found
@@ -61,9 +62,9 @@ def edges_of_ring(
     to = _nearest(start, end, *_edges(own))
     found = without_edges(attributes)
     for name in names:
-        values = _elements(str(attributes[name]))
+        values = _elements(str(attributes[name]), len(start))
         if len(values) == len(start):
-            found[name] = ";".join(values[row] for row in to)
+            found[name] = _joined([values[row] for row in to])
     return found
 
 
@@ -92,9 +93,16 @@ def _text(value: Any) -> str:
     return "" if value is None else str(value).replace(";", ",")
 
 
-def _elements(text: str) -> list[str]:
-    """Between semicolons; one behind the last element ends it."""
-    return [one.strip() for one in text.removesuffix(";").split(";")]
+def _joined(values: list[str]) -> str:
+    """The text of which `_elements` makes these values."""
+    return ";".join(values) + (";" if values and not values[-1] else "")
+
+
+def _elements(text: str, count: int | None = None) -> list[str]:
+    """Between semicolons; one behind the last element ends it, if they are not `count` with it."""
+    values = [one.strip() for one in text.split(";")]
+    ends = len(values) > 1 and not values[-1] and len(values) != count
+    return values[:-1] if ends else values
 
 
 def _open(ring: NDArray[np.float64]) -> NDArray[np.float64]:

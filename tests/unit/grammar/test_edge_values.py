@@ -54,7 +54,7 @@ def test_properties_become_texts_of_edges() -> None:
     given |= {"n": 3}
     found = plain_attributes(given)
     assert found == {
-        "/edgeattr/a": "1;true;",
+        "/edgeattr/a": "1;true;;",
         "/edgeattr/b": "x;y",
         "/edgeattr/c": "",
         "d": "e",
@@ -76,6 +76,22 @@ def test_texts_become_lists_of_one_kind(text: str, values: list[object]) -> None
     assert edge_lists({"/edgeattr/a": text, "b": "1;2"}) == {"/edgeattr/a": values}
 
 
+@pytest.mark.parametrize("told", [["a", "b", "c", ""], ["a", "b", "c", None], "a;b;c;", "a;b;c;;"])
+@pytest.mark.parametrize("turn", range(4))
+def test_an_empty_last_element_is_an_edges_too(told: object, turn: int) -> None:
+    given = np.array(SQUARE)
+    texts = edge_texts({"/edgeattr/a": told})
+    found = edges_of_ring(dict(texts), [given], [np.roll(given, -turn, axis=0)])
+    values = ["a", "b", "c", ""]
+    assert edge_lists(found) == {"/edgeattr/a": values[turn:] + values[:turn]}
+
+
+@pytest.mark.parametrize("told", [["a", "b", "c"], "a;b;c", ["a", "", "c", "", ""]])
+def test_lists_of_another_length_are_not_used(told: object) -> None:
+    texts = edge_texts({"/edgeattr/a": told})
+    assert edges_of_ring(dict(texts), [np.array(SQUARE)], [np.array(SQUARE)]) == {}
+
+
 @pytest.mark.parametrize("turn", range(4))
 @pytest.mark.parametrize("reverse", [False, True])
 def test_edges_keep_what_is_theirs(turn: int, reverse: bool) -> None:
@@ -90,6 +106,24 @@ def test_edges_keep_what_is_theirs(turn: int, reverse: bool) -> None:
     assert all(value in told[(x, y)] for value, (x, y) in zip(values, middle.tolist(), strict=True))
     assert found["h"] == 2.0
     assert "/edgeattr/n" not in edges_of_ring({"/edgeattr/n": "1;2"}, [given], [own])
+
+
+@pytest.mark.parametrize(
+    ("told", "found"),
+    [
+        (["a", "b", "c", ""], ["a", "b", "c", ""]),
+        ([1, 2, 3, None], ["1", "2", "3", ""]),
+        ("a;b;c;", ["a", "b", "c", ""]),
+    ],
+)
+def test_rules_read_the_edges_of_a_file_whose_last_says_nothing(
+    tmp_path: Path, told: object, found: list[str]
+) -> None:
+    path = write(tmp_path / "a.geojson", SQUARE, told)
+    text = """Lot --> extrude(3) comp(f) { world.south : P | world.east : P | world.north : P
+        | world.west : P | all : NIL }
+    P --> print("<" + edgeAttr.getString("side") + ">")"""
+    assert said(path, text) == [f"<{one}>" for one in found]
 
 
 @pytest.mark.parametrize("told", [SIDES, ";".join(SIDES)])
