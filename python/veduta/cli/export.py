@@ -109,6 +109,8 @@ def _told(call: ExportCall) -> Place:
             "its buildings are those of its city model, without pictures and without the ground"
             " between lots: tiles hold many of them in one. Derive it with --separate to keep both."
         )
+    for note in place.notes:
+        print(f"note: {note}")
     for name, words in call.about.given().items():
         setattr(place, name, words)
     return place

@@ -50,7 +50,7 @@ class BuildingFaces:
 class CityFile:
     """The buildings of a file. epsg: None where it names no reference system.
 
-    left: buildings that cannot be used, as (name, reason).
+    left: buildings and installations that cannot be used, as (name, reason).
     """
 
     buildings: tuple[BuildingFaces, ...]

@@ -75,7 +75,7 @@ def read_cityjson(path: Path, *, installations: bool = False) -> CityFile:
             if not one.get("geometry") and name not in parts:
                 continue
             try:
-                building = _building(str(name)[:200], one, points, parts.get(name, ()))
+                building = _building(str(name)[:200], one, points, parts.get(name, ()), left)
             except _Fault as fault:
                 left.append((str(name)[:200], str(fault)))
                 continue
@@ -147,14 +147,14 @@ def _vertices(path: Path, head: dict[str, Any], document: dict[str, Any]) -> NDA
     return found
 
 
-def _installations(objects: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
-    """Those of each building, by its name."""
-    found: dict[str, list[dict[str, Any]]] = {}
-    for one in objects.values():
+def _installations(objects: dict[str, Any]) -> dict[str, list[tuple[str, dict[str, Any]]]]:
+    """Those of each building with their names, by its name."""
+    found: dict[str, list[tuple[str, dict[str, Any]]]] = {}
+    for name, one in objects.items():
         if isinstance(one, dict) and one.get("type") == "BuildingInstallation":
             parents = one.get("parents")
             if isinstance(parents, list) and parents and one.get("geometry"):
-                found.setdefault(str(parents[0]), []).append(one)
+                found.setdefault(str(parents[0]), []).append((str(name)[:200], one))
     return found
 
 
@@ -162,8 +162,10 @@ def _building(
     name: str,
     one: dict[str, Any],
     points: NDArray[np.float64],
-    installations: Sequence[dict[str, Any]] = (),
+    installations: Sequence[tuple[str, dict[str, Any]]],
+    left: list[tuple[str, str]],
 ) -> BuildingFaces:
+    """left: is told which installations cannot be used; the building stands without them."""
     polygons: list[Rings] = []
     surfaces: list[SurfaceTold] = []
     surface: list[int] = []
@@ -179,11 +181,16 @@ def _building(
             polygons.append(_rings(face, points))
             known = isinstance(value, int) and 0 <= value < len(surfaces)
             surface.append(value if known else -1)
-    for part in installations:
-        geometry = _finest(part["geometry"])
-        for face, _ in _faces(geometry.get("boundaries"), None, _DEPTH[geometry["type"]]):
-            polygons.append(_rings(face, points))
-            surface.append(len(surfaces))
+    for own_name, part in installations:
+        try:
+            geometry = _finest(part["geometry"])
+            faces = _faces(geometry.get("boundaries"), None, _DEPTH[geometry["type"]])
+            found = [_rings(face, points) for face, _ in faces]
+        except _Fault as fault:
+            left.append((own_name, f"an installation of {name} that {fault}"))
+            continue
+        polygons += found
+        surface += [len(surfaces)] * len(found)
         surfaces.append(_told(part.get("attributes"), None))
     if not polygons:
         raise _Fault("has no surfaces")

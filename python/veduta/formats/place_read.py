@@ -7,7 +7,7 @@ are taken to be z-up.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +34,8 @@ from veduta.run.limits import limited
 
 LEFT_OUT = "polygons_left_out"
 """Attribute of a building: how many cannot be drawn."""
+MOST_TOLD = 20
+"""Notes of a place that name what is left out one by one."""
 WARPED_M = 0.005
 """A face whose corners leave its mean plane by more is cut into triangles between them."""
 _CLASSES = {one.value: one for one in SemanticClass}
@@ -72,7 +74,7 @@ def read_trimesh_place(path: Path) -> Place:
 
 
 def read_city_place(path: Path) -> Place:
-    """The buildings of a CityJSON or CityGML file, each a part."""
+    """The buildings of a CityJSON or CityGML file, each a part; its notes say what is left out."""
     city = (
         read_citygml(path)
         if path.suffix.lower() == ".gml"
@@ -81,6 +83,7 @@ def read_city_place(path: Path) -> Place:
     if not city.buildings:
         raise InputError(path, "has no building with polygons", "Choose a model of LoD1 or above.")
     place = Place(title=path.stem, crs=None if city.epsg is None else f"EPSG:{city.epsg}")
+    left = list(city.left)
     low = _low(city)
     place.origin_m = (float(low[0]), float(low[1]), float(low[2]))
     for building in city.buildings:
@@ -88,8 +91,24 @@ def read_city_place(path: Path) -> Place:
         matrix = np.eye(4)
         matrix[:3, 3] = own - low
         name = str(building.attributes.get("name", building.id))
-        place.add(_building(building, own), Standing(name=name, transform=matrix))
+        part = _building(building, own)
+        if part is None:
+            left.append((building.id, "has no polygon that can be drawn"))
+            continue
+        if part.notes:
+            left.append((building.id, "; ".join(part.notes)))
+        place.add(part, Standing(name=name, transform=matrix))
+    if not place.parts:
+        raise InputError(path, "has no polygon that can be drawn", "Check its coordinates.")
+    place.notes += [*city.notes, *_named(left)]
     return place
+
+
+def _named(left: Sequence[tuple[str, str]]) -> Iterator[str]:
+    """What is not in the place, as notes."""
+    yield from (f"left out: {name}: {reason}" for name, reason in left[:MOST_TOLD])
+    if len(left) > MOST_TOLD:
+        yield f"left out: {len(left) - MOST_TOLD:,} more"
 
 
 def _is_model(path: Path) -> bool:
@@ -107,9 +126,12 @@ def _low(city: CityFile) -> NDArray[np.float64]:
     return least
 
 
-def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
+def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part | None:
+    """None where none of its polygons can be drawn."""
     builder = PartBuilder(building.id)
     builder.attributes |= dict(building.attributes)
+    builder.attributes.pop(LEFT_OUT, None)
+    left = 0
     told = building.attributes.get("provenance")
     known_by = Provenance(told) if told in set(Provenance) else Provenance.MEASURED
     materials: dict[Material, int] = {}
@@ -130,15 +152,13 @@ def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
         if material not in materials:
             materials[material] = builder.material(material)
         kept = [piece for piece in _flat([ring - origin for ring in rings]) if _is_sound(piece)]
-        builder.attributes |= {} if kept else {LEFT_OUT: _more(builder.attributes)}
+        left += not kept
         for piece in kept:
             builder.polygon(piece, features[key], materials[material])
-    return builder.build()
-
-
-def _more(attributes: Mapping[str, object]) -> int:
-    found = attributes.get(LEFT_OUT, 0)
-    return found + 1 if isinstance(found, int) else 1
+    if left:
+        builder.attributes[LEFT_OUT] = left
+        builder.notes.append(f"{left} of {len(building.polygons)} polygons cannot be drawn")
+    return builder.build() if builder.polygon_count else None
 
 
 def _is_sound(rings: list[NDArray[np.float64]]) -> bool:

@@ -38,7 +38,7 @@ def untiled(place: Place) -> Place:
         for axis in range(3):
             transform[axis, 3] += town.origin_m[axis] - place.origin_m[axis]
         parts[placed.id] = replace(placed, standing=replace(placed.standing, transform=transform))
-    return replace(place, parts=parts, tileset=None)
+    return replace(place, parts=parts, tileset=None, notes=[*place.notes, *town.notes])
 
 
 def _is_tiled(place: Place) -> bool:

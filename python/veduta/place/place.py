@@ -181,6 +181,8 @@ class Place:
     """Its tiles in that folder, where it has too many parts to be shown one by one."""
     files: dict[str, Source] = field(default_factory=dict)
     """Where the files that it names are. One that is not here lies where the place is saved."""
+    notes: list[str] = field(default_factory=list)
+    """What of the file that it was read from is not in it, and why."""
     held: list[object] = field(default_factory=list)
     """What is to live as long as the place, such as a folder that it is read from."""
 
@@ -281,6 +283,7 @@ class Place:
             animals=joined("animal", self.animals, other.animals, move),
             walks=joined("walk", self.walks, other.walks, move),
             files={**other.sources(), **self.sources()},
+            notes=list(dict.fromkeys([*self.notes, *other.notes])),
             held=[*self.held, *other.held],
         )  # fmt: skip
 

@@ -149,3 +149,64 @@ def test_warped_polygons_keep_their_shape_and_heights(
     found = {tuple(corner) for corner in np.round(corners * 100).astype(int).tolist()}
     assert found == set(vertices)
     np.testing.assert_allclose(corners * 100, np.round(corners * 100), atol=1e-3)
+
+
+BOX = [(0, 0, 0), (400, 0, 0), (400, 300, 0), (0, 300, 0), (0, 0, 500), (400, 0, 500)]
+FLOOR, WALL = [[0, 3, 2, 1]], [[0, 1, 5, 4]]
+CROSSED = [[0, 1, 3, 2]]
+
+
+def installation(kind: str, lod: str, boundaries: Any) -> dict[str, Any]:
+    geometry = {"type": kind, "lod": lod, "boundaries": boundaries}
+    return {"type": "BuildingInstallation", "parents": ["house"], "geometry": [geometry]}
+
+
+def test_installations_that_cannot_be_used_are_told(tmp_path: Path) -> None:
+    """The building stands without them, and with those that can."""
+    parts = {
+        "rail": installation("MultiLineString", "2", [[0, 1]]),
+        "copy": installation("GeometryInstance", "2", [0]),
+        "trace": installation("MultiSurface", "0", [FLOOR]),
+        "torn": installation("MultiSurface", "2", [WALL, [[0, 1, 99]]]),
+        "sill": installation("MultiSurface", "2", [WALL]),
+    }
+    place = veduta.load(city(tmp_path / "a.city.json", [FLOOR], BOX, **parts))
+    house = place.parts["house"].content
+    assert len(house.polygon_offsets) - 1 == 2
+    coarse = "that has no geometry of LoD1 or above"
+    assert place.notes == [
+        f"left out: rail: an installation of house {coarse}",
+        f"left out: copy: an installation of house {coarse}",
+        f"left out: trace: an installation of house {coarse}",
+        "left out: torn: an installation of house that names a vertex that is not there",
+    ]
+
+
+def test_polygons_that_cannot_be_drawn_are_told(tmp_path: Path) -> None:
+    lost = {"type": "Building", "geometry": []}
+    lost["geometry"] = [{"type": "MultiSurface", "lod": "2", "boundaries": [CROSSED]}]
+    path = city(tmp_path / "a.city.json", [FLOOR, CROSSED, CROSSED], BOX, lost=lost)
+    content = json.loads(path.read_text())
+    content["CityObjects"]["house"]["attributes"] = {"polygons_left_out": 7}
+    path.write_text(json.dumps(content))
+    place = veduta.load(path)
+    assert list(place.parts) == ["house"]
+    assert place.parts["house"].content.attributes["polygons_left_out"] == 2
+    assert place.notes == [
+        "left out: house: 2 of 3 polygons cannot be drawn",
+        "left out: lost: has no polygon that can be drawn",
+    ]
+    assert place.merge(place).notes == place.notes
+
+
+def test_many_that_are_left_out_are_counted(tmp_path: Path) -> None:
+    parts = {f"p{k}": installation("MultiLineString", "2", [[0, 1]]) for k in range(25)}
+    place = veduta.load(city(tmp_path / "a.city.json", [FLOOR], BOX, **parts))
+    assert len(place.notes) == 21
+    assert place.notes[-1] == "left out: 5 more"
+
+
+def test_a_city_without_a_polygon_that_can_be_drawn_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="has no polygon that can be drawn") as told:
+        veduta.load(city(tmp_path / "a.city.json", [CROSSED], BOX))
+    assert told.value.remedy
