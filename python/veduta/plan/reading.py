@@ -129,9 +129,10 @@ class Sheeted:
     known: KnownWalls | None
     fenced: bool = False
 
-    def without(self, found: Found, fence: Sequence[Piece]) -> Sheeted:
-        """The same without the wall around the plot."""
-        return replace(self, cleaned=without_fence(self.cleaned, found, fence)[0], fenced=True)
+    def without(self, found: Found, fence: Sequence[Piece]) -> tuple[Sheeted, Found]:
+        """The same without the wall around the plot, and the walls that are left."""
+        cleaned, inner = without_fence(self.cleaned, found, fence)
+        return replace(self, cleaned=cleaned, fenced=True), inner
 
 
 def _likeliest_way(sheet: Sheeted) -> Drawn:
@@ -147,10 +148,11 @@ def _likeliest_way(sheet: Sheeted) -> Drawn:
             yield partial(_within_ring, sheet, tried[0])
 
     likely, drawn = likeliest(readings(), labels)
-    again = likely < len(tried) and PLOT_NOTE not in drawn.notes
-    if sheet.known is None and again and _with_own_rooms(drawn, labels) < 1.0:
+    if sheet.known is None and likely < len(tried) and _with_own_rooms(drawn, labels) < 1.0:
         # The least invention: what thin lines close counts once it is known how walls are drawn.
-        drawn = _read(sheet, tried[likely], thin=True)
+        closed = _read(sheet, tried[likely], thin=True)
+        # Within a fence the walls may have been read in another way than that.
+        drawn = _better(drawn, closed, labels) if PLOT_NOTE in drawn.notes else closed
     return drawn
 
 
@@ -160,7 +162,7 @@ def _within_ring(sheet: Sheeted, way: Way) -> Drawn:
     ring = [found.pieces[one] for one in sorted(ring_pieces(found.pieces, found.thin_px))]
     if not ring:
         raise NotFoundError("walls", "no wall stands around the plot", "Give a floor plan.")
-    return _noted(_likeliest_way(sheet.without(found, ring)))
+    return _noted(_likeliest_way(sheet.without(found, ring)[0]))
 
 
 def _drawn_otherwise(sheet: Sheeted, way: Way) -> bool:
@@ -212,19 +214,24 @@ def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> floa
 
 def _read(sheeted: Sheeted, way: Way, *, thin: bool = False) -> Drawn:
     """One reading; thin: rooms with a name are closed along any lines around them."""
-    cleaned = sheeted.cleaned
-    found = find_walls(cleaned, way)
+    found = find_walls(sheeted.cleaned, way)
     fence = [found.pieces[one] for one in sorted(fence_pieces(found.pieces, found.thin_px))]
     if not fence:
         return _read_found(sheeted, found, way, thin)
-    within = sheeted.without(found, fence)
-    inner = without_fence(cleaned, found, fence)[1]
+    within, inner = sheeted.without(found, fence)
     drawn = _noted(_read_found(within, inner, way, thin))
     if sheeted.fenced or thin or not _drawn_otherwise(within, way):
         return drawn
-    labels = room_labels(sheeted.texts, indoors=True)
-    other = _noted(_likeliest_way(within))
-    return max(drawn, other, key=lambda one: _by_names(one, labels))
+    try:
+        other = _noted(_likeliest_way(within))
+    except NotFoundError:
+        return drawn
+    return _better(drawn, other, room_labels(sheeted.texts, indoors=True))
+
+
+def _better(first: Drawn, second: Drawn, labels: Sequence[NDArray[np.float64]]) -> Drawn:
+    """The reading that agrees better with the names on the sheet; the first where both do."""
+    return max(first, second, key=lambda one: _by_names(one, labels))
 
 
 def _by_names(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> tuple[float, int]:

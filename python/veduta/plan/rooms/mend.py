@@ -106,7 +106,9 @@ def mended(
     if by_lines and axes:
         indoors = room_labels(texts, indoors=True)
         door_px = usual or USUAL_DOOR * found.thin_px
-        shut = max(LEAST_SHUT_PX, round(SHUT * found.thin_px))
+        shut = (
+            max(LEAST_SHUT_PX, round(SHUT * found.thin_px)) | 1
+        )  # odd: even ones shift by a pixel
         passes = ((False, LEAST_SHUT_PX), (True, LEAST_SHUT_PX), (True, shut))
         for also, shut_px in passes if thin else passes[:1]:
             around = partial(_around, found=found, door_px=door_px, thin=also)

@@ -60,7 +60,8 @@ def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT)
     hull, ring = walls.convex_hull, plot.convex_hull
     share = hull.area / max(ring.area, 1e-9)
     free = ring.boundary.distance(hull)
-    enough = walls.length >= rule.house * plot.length
+    inside = unary_union([line for index, line in enumerate(lines) if index not in fence])
+    enough = inside.length >= rule.house * plot.length
     sized = rule.inside[0] <= share <= rule.inside[1]
     beside = walls.buffer(rule.along * thin_px).intersection(hull.boundary).length
     sized = sized and beside >= rule.closed * hull.boundary.length
