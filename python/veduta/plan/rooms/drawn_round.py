@@ -72,6 +72,9 @@ LINES = 0.5
 DEEP = 0.9
 """It is farther from the outdoors than this part of the thickest common wall's thickness."""
 
+COUNTER = 0.1
+"""What reaches nearer covers at most this part of what the room's paper does."""
+
 SWEPT = 1.15
 """Arcs of doors part from a room what is at most so many times as wide as a door."""
 
@@ -209,9 +212,12 @@ def _room(raster: Raster, label: Points, thin_px: float, outer_px: float) -> Mas
     if not shares.any() or own == raster.outside:
         return None
     # What lies between the lines of a wall or a window is close to the outdoors: no furniture.
+    # A counter before a window reaches as near, but is broader; a balcony is no counter.
+    shallow = (raster.outdoors < DEEP * outer_px) & (raster.free > 0)
     size_px = np.bincount(raster.free.ravel(), minlength=raster.count)
     depth = np.bincount(raster.free.ravel(), raster.outdoors.ravel(), raster.count)
-    inside = depth >= DEEP * outer_px * size_px
+    inside = (depth >= DEEP * outer_px * size_px) & (size_px <= COUNTER * size_px[own])
+    inside[np.setdiff1d(np.arange(raster.count), raster.free[shallow])] = True
     inside[[0, raster.outside]] = False
     inside[own] = True
     size = 2 * max(1, round(LINES * thin_px / 2)) + 1
