@@ -154,13 +154,14 @@ def test_force_rebuilds_what_is_up_to_date(out: Path) -> None:
 
 
 SIZES = ("--depth-m", 7, "--setback-m", 0.35)
+KINDS = {"detail": "library"}
 
 
 def test_a_rebuild_keeps_the_sizes_of_the_run_that_made_it(tmp_path: Path, photo: Path) -> None:
     out, new, other = tmp_path / "out", tmp_path / "new", tmp_path / "other"
     assert facade(photo, "-o", out, *SIZES).returncode == 0
     document = out / "house0" / "facade.json"
-    assert read_json(document)["model"] == {"depth_m": 7.0, "setback_m": 0.35}
+    assert read_json(document)["model"] == {"depth_m": 7.0, "setback_m": 0.35, **KINDS}
     assert veduta("facade", document, "-o", new).returncode == 0
     assert tree(new / "house0") == tree(out / "house0")
     assert read_json(new / "report.json")["options"] == {}
@@ -169,7 +170,7 @@ def test_a_rebuild_keeps_the_sizes_of_the_run_that_made_it(tmp_path: Path, photo
     assert call["options"] == {"depth_m": 8.0}
     assert call["notes"] == ["rebuilt from facade.json: house0"]
     rebuilt = read_json(other / "house0" / "facade.json")
-    assert rebuilt["model"] == {"depth_m": 8.0, "setback_m": 0.35}
+    assert rebuilt["model"] == {"depth_m": 8.0, "setback_m": 0.35, **KINDS}
     report = read_json(other / "house0" / "report.json")
     assert report["options"] == rebuilt["model"]
     assert depth_of(other / "house0") == pytest.approx(8.0)
@@ -232,7 +233,7 @@ def tree_without_edit(folder: Path) -> dict[str, bytes]:
     content = json.loads(files["facade.json"])
     place = list(content).index("facade") + 1
     items = list(content.items())
-    items.insert(place, ("model", {"depth_m": 10.0, "setback_m": 0.2}))
+    items.insert(place, ("model", {"depth_m": 10.0, "setback_m": 0.2, **KINDS}))
     files["facade.json"] = (json.dumps(dict(items), indent=1, ensure_ascii=False) + "\n").encode()
     return files
 

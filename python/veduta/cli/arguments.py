@@ -7,7 +7,7 @@ import os
 import types
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import tyro
 
@@ -84,6 +84,20 @@ def _bare(kind: Any) -> Any:
     return get_args(kind)[0] if get_origin(kind) is Annotated else kind
 
 
+def _one_of(words: tuple[Any, ...]) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
+    """One of some words, or nothing where none is given."""
+    if not all(isinstance(word, str) for word in words):
+        return None
+    return tyro.constructors.PrimitiveConstructorSpec(
+        nargs=1,
+        metavar="{" + ",".join(words) + "}",
+        instance_from_str=lambda given: given[0],
+        is_instance=lambda value: value is None or value in words,
+        str_from_instance=lambda value: ["none" if value is None else str(value)],
+        choices=words,
+    )
+
+
 def _optional(
     info: tyro.constructors.PrimitiveTypeInfo,
 ) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
@@ -93,6 +107,8 @@ def _optional(
     kinds = [_bare(kind) for kind in get_args(info.type) if kind is not type(None)]
     if len(kinds) != 1:
         return None
+    if get_origin(kinds[0]) is Literal:
+        return _one_of(get_args(kinds[0]))
     several = get_origin(kinds[0]) is tuple
     parts = get_args(kinds[0]) if several else kinds
     if not all(part in _METAVARS for part in parts):

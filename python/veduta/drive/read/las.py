@@ -24,14 +24,15 @@ def read_las(path: Path) -> NDArray[np.float64]:
 
 
 def _points(path: Path) -> NDArray[np.float64]:
-    import laspy  # here, as only the process that reads needs it
+    import laspy  # here, as only the process that reads needs them
+    import lazrs
 
     require_file(path, _MOST_BYTES)
     try:
         with laspy.open(path) as file:
             _require_points(path, file.header.point_count, file.header.point_format.size)
             points = file.read()
-    except (laspy.errors.LaspyException, OSError, ValueError) as error:
+    except (laspy.errors.LaspyException, lazrs.LazrsError, OSError, ValueError) as error:
         raise InputError(path, "is no LAS that can be read", "Copy it again.") from error
     if not len(points.points):
         raise InputError(path, "has no points", "Remove it.")
