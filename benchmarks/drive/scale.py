@@ -69,7 +69,7 @@ def main() -> None:
         print(rows[-1], flush=True)
     record("drive-scale", rows, [
         f"Vertical and horizontal scans every {SPACING_M} m; path by matching, layers, filling,"
-        " meshes; no images, no surface model. The machine was shared: processor time counts.",
+        " meshes; no images, no surface model. On a loaded machine: processor time counts.",
     ])  # fmt: skip
 
 
