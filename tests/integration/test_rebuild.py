@@ -309,3 +309,41 @@ def test_options_of_photos_are_refused(out: Path, tmp_path: Path) -> None:
     assert done.returncode == 2
     assert "--height-m" in done.stderr
     assert veduta("facade", document, "-o", tmp_path / "new", "--depth-m", "7").returncode == 0
+
+
+def _with_second_house(out: Path) -> None:
+    """Make the photo of house0 one of two houses, as its run would have left them."""
+    house = out / "house0" / "house-2"
+    shutil.copytree(out / "house0", house)
+    path = out / ".veduta" / "run.json"
+    record = read_json(path)
+    files = {name: digest for name, digest in record["files"].items() if "house0/" in name}
+    moved = {name.replace("house0/", "house0/house-2/", 1): files[name] for name in files}
+    record["files"] |= moved
+    summary = record["items"]["house0"]["summary"]
+    summary["beside"] = [
+        {
+            "folder": "house-2",
+            "storeys": summary["storeys"],
+            "offset_m": 20.0,
+            "bounds_min": summary["bounds_min"],
+            "bounds_max": summary["bounds_max"],
+        }
+    ]
+    path.write_text(json.dumps(record))
+
+
+def test_a_rebuild_in_place_leaves_the_other_houses(out: Path) -> None:
+    _with_second_house(out)
+    before = tree(out / "house0" / "house-2")
+    model = (out / "house0" / "model.glb").read_bytes()
+    done = veduta("facade", out / "house0" / "facade.json", "-o", out, "--setback-m", "0.31")
+    assert done.returncode == 0, done.stderr
+    assert "1 more house of the photo: house-2" in done.stdout
+    assert (out / "house0" / "model.glb").read_bytes() != model
+    assert tree(out / "house0" / "house-2") == before
+    parts = [part["id"] for part in read_json(out / "place.json")["parts"]]
+    assert parts == ["house0", "house0-house-2", "house1"]
+    kept = read_json(out / ".veduta" / "run.json")
+    assert "house0/house-2/facade.json" in kept["files"]
+    assert kept["items"]["house0"]["summary"]["beside"][0]["folder"] == "house-2"

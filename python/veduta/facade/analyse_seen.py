@@ -20,6 +20,7 @@ from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.rectify import Rectified
 from veduta.facade.rows import gather_rows
+from veduta.facade.scale import scale_notes
 from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop
 from veduta.facade.seen_front import (
     WALL,
@@ -152,8 +153,18 @@ def _read_each(
         scale = ScaleOptions(width_m=max(0.5, wide_px * main.scale.metres_per_px))
         others: list[StepRecord] = []
         own = options.model_copy(update={"scale": scale})
-        found.append(_read(front, span, own, others, progress))
+        document = _read(front, span, own, others, progress)
+        found.append(_scaled_as(main, document, options.scale))
     return found
+
+
+def _scaled_as(
+    main: FacadeDocument, document: FacadeDocument, options: ScaleOptions
+) -> FacadeDocument:
+    """The document, which says of its scale what that of the main house says."""
+    scale = document.scale.model_copy(update={"basis": main.scale.basis})
+    notes = [*document.notes, *scale_notes(main.scale, options)]
+    return document.model_copy(update={"scale": scale, "notes": list(dict.fromkeys(notes))})
 
 
 def _look_at(

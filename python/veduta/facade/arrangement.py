@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain, count
 from pathlib import Path
 from typing import cast
 
@@ -99,6 +100,7 @@ def arrange(buildings: Sequence[Placed], out: Path) -> Place:
     if len(frames) == 1 and None not in frames:
         return _on_walls(buildings, out)
     place = Place()
+    taken = {building.name for building in buildings}
     at_m = 0.0
     for building in buildings:
         left, right = building.row
@@ -107,10 +109,19 @@ def arrange(buildings: Sequence[Placed], out: Path) -> Place:
         place.lay(_part(building, _along(shift_m), invented=invented), out)
         for one in building.beside:
             house = Placed(f"{building.name}/{one.folder}", one.low, one.high)
-            place.lay(_part(house, _along(shift_m + one.offset_m), invented=invented), out)
+            part = _part(house, _along(shift_m + one.offset_m), invented=invented)
+            place.lay(part.model_copy(update={"id": _free_id(part.id, taken)}), out)
         at_m = right + shift_m + GAP_M
     place.start = _start(buildings, at_m - GAP_M)
     return place
+
+
+def _free_id(wanted: str, taken: set[str]) -> str:
+    """The id, with a number where another photo is called so; it is taken from then on."""
+    tries = chain([wanted], (f"{wanted}-{number}" for number in count(2)))
+    free = next(name for name in tries if name not in taken)
+    taken.add(free)
+    return free
 
 
 def _along(shift_m: float) -> tuple[float, ...]:

@@ -12,7 +12,7 @@ from pydantic import JsonValue
 
 from veduta.facade.arrangement import Placed, Vector, arrange, stand_of
 from veduta.facade.call import Call, Input, Kind, plan_call
-from veduta.facade.house_folders import beside_of
+from veduta.facade.house_folders import beside_kept, beside_of
 from veduta.facade.job import Job, JobResult, memory_of, run_job
 from veduta.facade.label_pictures import labels_note
 from veduta.facade.load import DOCUMENT, load_document, load_photo
@@ -231,10 +231,11 @@ def _is_wanted(
     """
     if folder.standing is Standing.UP_TO_DATE:
         return False
-    document = f"{source.name}/{DOCUMENT}"
-    if call.kind == "photo" and document in folder.edited(source.name):
+    edited = [name for name in folder.edited(source.name) if name.endswith(f"/{DOCUMENT}")]
+    if call.kind == "photo" and edited:  # also of another house of the photo
         if not folder.keep(source.name):
-            result.failures[source.name] = _interrupted(folder.path / document, folder.path)
+            document = folder.path / source.name / DOCUMENT
+            result.failures[source.name] = _interrupted(document, folder.path)
         return False
     return not folder.is_current(source.name, _key("item", source.identity, call, options))
 
@@ -303,7 +304,12 @@ def _publish(
         summary = dict(job_result.summary)
         if failure is None:
             summary[MADE_FROM] = _digest_of_document(lies_there, folder, work)
-        folder.publish(source.name, key, work, summary, failure)
+        former = folder.record.items.get(source.name)
+        stays: list[str] = []
+        if folder.standing is Standing.AMENDED and former is not None:
+            summary |= beside_kept(former.summary)
+            stays = [house.folder for house in beside_of(summary)]
+        folder.publish(source.name, key, work, summary, failure, stays)
     elif folder.standing is not Standing.AMENDED:
         folder.forget(source.name)
 

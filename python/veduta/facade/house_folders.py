@@ -96,6 +96,11 @@ def beside_of(summary: Mapping[str, JsonValue]) -> tuple[Beside, ...]:
     )
 
 
+def beside_kept(former: Mapping[str, JsonValue]) -> dict[str, JsonValue]:
+    """What a summary keeps of the one before: a rebuild of one house leaves the others."""
+    return {BESIDE: former[BESIDE]} if former.get(BESIDE) else {}
+
+
 def beside_line(summary: Mapping[str, JsonValue]) -> str:
     """How many more houses the photo has, in a line; empty where none."""
     rows = cast(list[dict[str, JsonValue]], summary.get(BESIDE) or [])

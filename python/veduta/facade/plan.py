@@ -79,7 +79,7 @@ def plan_building(document: FacadeDocument) -> Plan:
     mansard = gable = None
     if document.roof in ("gable", "hip"):
         gable = plan_gable(document.roof, (width, eaves, roof_m), layout.dormers, notes)
-    else:
+    elif document.roof != "flat":
         reach = _rounded(reach_m(layout.dormers, eaves))
         mansard = plan_mansard(width, depth, eaves, roof_m, reach)
     above = layout.dormers if gable is None else ()

@@ -21,7 +21,7 @@ import errno
 import fcntl
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from enum import Enum
@@ -97,23 +97,26 @@ class OutFolder:
         work: Path,
         summary: dict[str, JsonValue] | None = None,
         failure: Failure | None = None,
+        stays: Sequence[str] = (),
     ) -> None:
         """Make the content of `work` the item's result; what the user edited stays.
 
+        `stays`: folders of the item whose files belong to the result though `work` has none.
         UnwritableError where the system refuses to write: the next run makes the item again.
         """
         state: Literal["failed", "done"] = "failed" if failure else "done"
         result = Item(key=key, state=state, failure=failure, summary=summary or {})
         with writing_to(self.path):
-            self._publish(item, work, result)
+            self._publish(item, work, result, tuple(f"{item}/{name}/" for name in stays))
 
-    def _publish(self, item: str, work: Path, result: Item) -> None:
+    def _publish(self, item: str, work: Path, result: Item, stays: tuple[str, ...]) -> None:
         new = _digests(work, "" if item == CALL else f"{item}/")
         users = [name for name in new if self._is_users(name)]
-        stale = [name for name in self.record.files_of(item) if name not in new]
+        former = [name for name in self.record.files_of(item) if name not in new]
+        stale = [name for name in former if not name.startswith(stays)]
         ours = {name: digest for name, digest in new.items() if name not in users}
 
-        begun = Item(key=result.key, state="publishing")
+        begun = Item(key=result.key, state="publishing", summary=result.summary)
         self.record.change(self.path, Change(items={item: begun}, pending=ours))
         self._move_into_place(item, work, list(ours))
         gone: dict[str, str | None] = {name: None for name in stale if self._is_removed(name)}

@@ -121,3 +121,16 @@ def test_what_a_summary_says_of_the_others_comes_back() -> None:
     assert beside_of(told) == (Beside("house-2", (0.0, 0.0, 0.0), (6.0, 10.0, 9.0), 8.0),)
     assert beside_line(told) == "1 more house of the photo: house-2"
     assert (beside_of({}), beside_line({})) == ((), "")
+
+
+def test_a_photo_that_is_called_as_a_house_keeps_its_id() -> None:
+    box = (0.0, -0.6, 0.0), (8.0, 10.0, 12.0)
+    main = Placed("a", *box, beside=(Beside("house-2", *box, 8.0),))
+    place = arrange([main, Placed("a-house-2", *box), Placed("a-house-2-2", *box)], Path())
+    models = {p.row.id: p.row.model for p in place.parts.values() if p.row is not None}
+    assert models == {
+        "a": "a/model.glb",
+        "a-house-2-3": "a/house-2/model.glb",
+        "a-house-2": "a-house-2/model.glb",
+        "a-house-2-2": "a-house-2-2/model.glb",
+    }

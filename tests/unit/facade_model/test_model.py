@@ -208,6 +208,13 @@ def test_low_roof_is_flat_and_invented() -> None:
     assert part.bounds_m[1][2] == pytest.approx(FACADE_M[1])
 
 
+def test_a_roof_that_is_called_flat_is_flat() -> None:
+    document = sample_document([element("window", 4.0, 15.5, 1.0, 1.0)], roof_m=3.0)
+    part = build_part(document.model_copy(update={"roof": "flat"}), sample_photo(document), "x")
+    assert "flat roof" in part.features.name
+    assert part.bounds_m[1][2] == pytest.approx(FACADE_M[1])
+
+
 def test_photo_of_another_size_is_refused() -> None:
     document = sample_document()
     with pytest.raises(InputError, match=r"rectified\.jpg"):

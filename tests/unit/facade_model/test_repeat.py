@@ -11,12 +11,14 @@ from sample_document import FACADE_M, element, sample_document, sample_elements,
 
 from veduta import _core
 from veduta.facade.document import FacadeDocument
+from veduta.facade.measured_depths import ClassDepth, MeasuredDepths
 from veduta.facade.model import build_model
 from veduta.facade.plan import plan_building
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.repeat.find import find_columns, find_pattern
 from veduta.facade.repeat.pattern import Tolerances
 from veduta.facade.repeat.series import Run, series
+from veduta.facade.rule_head import SHALLOW_M
 from veduta.facade.style.elevation import Elevation, elevation
 from veduta.grammar.derivation import derive, parse
 
@@ -98,6 +100,17 @@ def test_the_rules_have_no_faults_and_fit_two_screens() -> None:
     text = build_model(document, sample_photo(document), "sample").repeating
     assert text.count("\n") < 220
     assert _core.grammar_format("rules.cga", text) == text
+
+
+@pytest.mark.parametrize(("median_m", "shallow"), [(0.9, 0.9), (0.0, SHALLOW_M), (-0.3, SHALLOW_M)])
+def test_balconies_are_as_deep_as_measured_where_they_stand_out(
+    median_m: float, shallow: float
+) -> None:
+    one = ClassDepth(kind="balcony", measured=3, found=4, median_m=median_m, spread_m=0.1)
+    depths = MeasuredDepths(wall="w", known=0.9, wall_spread_m=0.05, classes=(one,))
+    document = sample_document().model_copy(update={"depths": depths})
+    rules = build_model(document, sample_photo(document), "sample").repeating
+    assert f"attr shallow = {shallow:g}\n" in rules
 
 
 def test_without_windows_above_the_ground_floor_nothing_repeats() -> None:

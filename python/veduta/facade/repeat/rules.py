@@ -131,6 +131,8 @@ def _head(plan: Plan, colours: Colours, photo: str) -> str:
     roof = plan.mansard
     upper = plan.gable.height_m if plan.gable is not None else 0.0
     measured = None if plan.depths is None else plan.depths.median_m("balcony")
+    if measured is not None and measured <= 0.0:
+        measured = None  # balconies that lie back say nothing of it
     return HEAD.format(
         photo=photo.replace("*/", "* /"),
         rules=RULES,
