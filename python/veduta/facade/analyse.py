@@ -49,9 +49,10 @@ def read_houses(
     options: FacadeOptions,
     progress: StepProgress = no_progress,
     seen: Seen | None = None,
-) -> tuple[list[FacadeDocument], list[StepRecord]]:
+) -> tuple[list[FacadeDocument], list[StepRecord], list[list[StepRecord]]]:
     """The documents of all houses of a picture, from left to right.
 
+    With the steps of the picture and its main house, and those of each other one by itself.
     One where only one is asked for, where the front is named (by corners, by a width, by the wall
     or the depths that it gets, by a style), or nothing is learned.
     """
@@ -66,9 +67,9 @@ def read_houses(
     )
     if named:
         document, steps = analyse(rectified, source, options, progress, seen)
-        return [document], steps
-    documents, steps = analyse_houses(rectified, source, options, progress, seen)
-    return with_numbers(documents), steps
+        return [document], steps, [[]]
+    documents, steps, own = analyse_houses(rectified, source, options, progress, seen)
+    return with_numbers(documents), steps, own
 
 
 def analyse_plain(

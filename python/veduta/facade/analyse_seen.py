@@ -111,8 +111,11 @@ def analyse_houses(
     options: FacadeOptions,
     progress: StepProgress = no_progress,
     seen: Seen | None = None,
-) -> tuple[list[FacadeDocument], list[StepRecord]]:
-    """The same for each house of the picture, from left to right; all in one scale."""
+) -> tuple[list[FacadeDocument], list[StepRecord], list[list[StepRecord]]]:
+    """The same for each house of the picture, from left to right; all in one scale.
+
+    Beside the steps of the picture and its widest house, those of each other one by itself.
+    """
     steps: list[StepRecord] = []
     front = _look_at(rectified, source, seen, steps, progress)
     with timed_step(steps, "houses") as step:
@@ -124,14 +127,14 @@ def analyse_houses(
     borders = [left, *(left + wall.x for wall in walls), right]
     spans = [replace(front.sides, left=a, right=b) for a, b in pairwise(borders)]
     try:
-        documents = _read_each(front, spans, options, steps, progress)
+        documents, own = _read_each(front, spans, options, steps, progress)
     except NotFoundError as error:
         if len(spans) == 1:
             raise
         steps[-1].rejected.append(f"houses: one of {len(spans)} is no front ({error})")
-        documents = [_read(front, front.sides, options, steps, progress)]
+        documents, own = [_read(front, front.sides, options, steps, progress)], [[]]
     progress("document", 1.0)
-    return documents, steps
+    return documents, steps, own
 
 
 def _read_each(
@@ -140,22 +143,22 @@ def _read_each(
     options: FacadeOptions,
     steps: list[StepRecord],
     progress: StepProgress,
-) -> list[FacadeDocument]:
-    """The widest house has the scale; the others have their widths in it."""
+) -> tuple[list[FacadeDocument], list[list[StepRecord]]]:
+    """The widest house has the scale; the others have widths in it, and steps of their own."""
     widest = max(spans, key=lambda span: span.right - span.left)
     main = _read(front, widest, options, steps, progress)
     found = []
-    for span in spans:
+    own_steps: list[list[StepRecord]] = [[] for _ in spans]
+    for span, others in zip(spans, own_steps, strict=True):
         if span is widest:
             found.append(main)
             continue
         wide_px = (span.right - span.left) / front.evidence.px_per_rectified
         scale = ScaleOptions(width_m=max(0.5, wide_px * main.scale.metres_per_px))
-        others: list[StepRecord] = []
         own = options.model_copy(update={"scale": scale})
         document = _read(front, span, own, others, progress)
         found.append(_scaled_as(main, document, options.scale))
-    return found
+    return found, own_steps
 
 
 def _scaled_as(

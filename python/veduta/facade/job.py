@@ -74,7 +74,7 @@ def run_job(job: Job) -> JobResult:
         for name, other in building.beside:
             folder = job.folder / name
             folder.mkdir()
-            own: list[StepRecord] = []
+            own = list(other.steps)
             write_building(other, folder, own, job.progress)
             _write_report(folder, image_report(other, options, own))
     return JobResult(summary=_summary(building, steps))

@@ -48,7 +48,8 @@ class Building:
     """What one photo gave; `photo_jpeg` is the rectified photo as it is stored.
 
     before: (h, w) what stands before the front, places in `cleared.KINDS`. beside: the
-    photo's other houses, each with the folder in that of this one that it gets.
+    photo's other houses, each with the folder in that of this one that it gets. steps: of such
+    a house alone; what was done for the whole photo is told of the main one.
     """
 
     document: FacadeDocument
@@ -58,6 +59,7 @@ class Building:
     model: Model
     style: StyleTold | None = None
     beside: tuple[tuple[str, Building], ...] = ()
+    steps: tuple[StepRecord, ...] = ()
 
     @property
     def part(self) -> Part:
@@ -86,7 +88,8 @@ def reconstruct(
         progress("look", 0.0)
         with timed_step(steps, "look"):
             seen = look(rectified.pixels)
-    documents, analysis = read_houses(rectified, _source(photo), options, progress, seen)
+    source = _source(photo)
+    documents, analysis, others = read_houses(rectified, source, options, progress, seen)
     steps.extend(analysis)
     said = (*photo.notes, *rectified.notes)
     documents = [_with_mouldings(_with_notes(d, said), rectified, seen) for d in documents]
@@ -103,8 +106,10 @@ def reconstruct(
         if number - 1 != place:
             own = _sized(other, options.model)
             folder = house_folder(number)
-            built = _model(own, pixels, before, f"{part_id}-{folder}", [], progress)
-            beside.append((folder, Building(own, jpeg, pixels, before, built)))
+            taken = others[number - 1]
+            built = _model(own, pixels, before, f"{part_id}-{folder}", taken, progress)
+            house = Building(own, jpeg, pixels, before, built, steps=tuple(taken))
+            beside.append((folder, house))
     return Building(document, jpeg, pixels, before, model, style, tuple(beside))
 
 

@@ -11,9 +11,12 @@ from drawn_facade import draw_facade, rectified_of
 from veduta.facade import analyse_seen
 from veduta.facade.analyse import analyse
 from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.evidence import Evidence
 from veduta.facade.eyes import look
 from veduta.facade.eyes.look import WEIGHTS
+from veduta.facade.houses import PartyWall
 from veduta.facade.options import FacadeOptions
+from veduta.facade.scale import ASSUMED_STOREY
 from veduta.run.errors import NotFoundError
 
 LARGEST_WEIGHTS = 5_000_000
@@ -56,6 +59,31 @@ def test_a_front_without_openings_between_its_sides_is_refused(
     monkeypatch.setattr(analyse_seen, "in_crop", lambda *_: [])
     with pytest.raises(NotFoundError, match="no window or door lies between its sides"):
         read(draw_facade(5).pixels)
+
+
+def test_the_other_houses_have_the_scale_and_basis_of_the_widest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    left, right = draw_facade(5).pixels, draw_facade(3).pixels
+    high = min(len(left), len(right))
+    pixels = np.hstack([left[-high:], right[-high:]])
+
+    def one_wall(evidence: Evidence, *_: object) -> list[PartyWall]:
+        at = round(evidence.width * left.shape[1] / pixels.shape[1])
+        return [PartyWall(at, 1.0, 1.0, 1.0)]
+
+    monkeypatch.setattr(analyse_seen, "find_party_walls", one_wall)
+    source = Source(image="a.png", sha256="", width_px=pixels.shape[1], height_px=high)
+    rectified = rectified_of(pixels)
+    documents, steps, own = analyse_seen.analyse_houses(rectified, source, FacadeOptions())
+    assert len(documents) == len(own) == 2
+    first, second = (document.scale for document in documents)
+    assert first.basis == second.basis == "assumed-storey"
+    assert first.metres_per_px == pytest.approx(second.metres_per_px, rel=0.02)
+    assert all(ASSUMED_STOREY in document.notes for document in documents)
+    told = ["floors", "openings", "document"]
+    assert sorted([step.name for step in each] for each in own) == [[], told]
+    assert [step.name for step in steps] == ["eyes", "extent", "houses", *told]
 
 
 def test_a_look_is_a_distribution_over_the_whole_picture() -> None:
