@@ -68,7 +68,7 @@ class SurfaceOptions(Options):
     no_texture: bool = Field(
         default=False, description="give each vertex of the mesh a colour, in place of a texture"
     )
-    max_atlas_px: Annotated[int, Field(ge=256, le=16_384)] = Field(
+    max_atlas_px: Annotated[int, Field(ge=256, le=16_383)] = Field(
         default=4096, description="longest side of the mesh's texture (px)"
     )
     tiles: bool = Field(

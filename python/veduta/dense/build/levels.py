@@ -26,8 +26,8 @@ class LevelParameters:
 class Level:
     """A piece of the mesh, and the finer pieces that take its place.
 
-    name: of its file, without a suffix. mesh: None, coloured by its vertices, where it is plainer than
-    the mesh; else (m,) which triangles of the mesh it has. error_m: 95 % of the vertices lie nearer.
+    name: of its file, without a suffix. plain: where it is plainer than the mesh, itself, coloured by
+    its vertices; else None. triangles: (m,) those of the mesh that it stands for. error_m: 95 % of the vertices lie nearer.
     box: (2, 3) corners of all that is in it.
     """
 
