@@ -11,7 +11,7 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 from pydantic import JsonValue
 
@@ -32,7 +32,7 @@ from veduta.drive.document.model import DriveSegment
 from veduta.drive.kept import load_result, save_result
 from veduta.drive.options import DriveOptions
 from veduta.drive.record import DriveRecord
-from veduta.run.errors import NotFoundError
+from veduta.run.errors import InputError, NotFoundError
 from veduta.run.threads import available_cores
 from veduta.run.work import Work
 
@@ -154,35 +154,45 @@ def texture_segments(
     images = NearImages(record.shots, [(one.segment, one.around) for one in layered])
     shares = dict.fromkeys(range(len(layered)), 0.0)
 
-    def load(number: int, seen: list[Seen]) -> Textured:
+    def kept(number: int, make: Callable[[], Textured]) -> Textured:
         one = layered[number]
+        found: Textured = work.kept(
+            f"texture-{one.segment.id}", _inputs(one.segment, options, digests), make,
+            save_result, lambda folder: load_result(Textured, folder),
+        )  # fmt: skip
+        return found
 
+    def made_of(number: int, seen: list[Seen]) -> Textured:
         def told(share: float) -> None:
             shares[number] = share
 
-        kept: Textured = work.kept(
-            f"texture-{one.segment.id}", _inputs(one.segment, options, digests),
-            lambda: texture(one.load(), seen, options, told),
-            save_result, lambda folder: load_result(Textured, folder),
-        )  # fmt: skip
-        return kept
+        return kept(number, lambda: texture(layered[number].load(), seen, options, told))
+
+    def again(number: int) -> Textured:
+        """From disk alone: the images that it was made of are not in memory any more."""
+        return kept(number, lambda: _gone(layered[number].segment.id, work))
 
     def idle() -> None:
         work.progress("texture", sum(shares.values()) / len(layered))
 
     near = ((number, images.near(one.segment)) for number, one in enumerate(layered))
     with work.step("texture") as step:
-        for (number, seen), made in _side_by_side(lambda item: load(*item), near, idle):
+        for (number, seen), made in _side_by_side(lambda item: made_of(*item), near, idle):
             shares[number] = 1.0
             idle()
             found.append(outcome_of(
-                made, partial(load, number, []), seen, options.texture.texel_m,
+                made, partial(again, number), seen, options.texture.texel_m,
                 max(MOST_TAKEN_OUT // len(layered), 1), work.folder,
             ))  # fmt: skip
             _show(made, work)
             step.counts[f"{layered[number].segment.id}: triangles"] = len(made.surface.triangles)
         step.counts["images"] = images.looked
     return found
+
+
+def _gone(segment: str, work: Work) -> NoReturn:
+    fault = f"has lost the texture of {segment} while it was in use"
+    raise InputError(work.stages, fault, "Leave the folder alone and call again.")
 
 
 def _inputs(segment: DriveSegment, options: DriveOptions, digests: JsonValue) -> JsonValue:
