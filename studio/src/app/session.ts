@@ -117,7 +117,7 @@ export async function openPlace(
   const noClouds: Missing[] = [];
   const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file), (one) => noClouds.push(one));
   const [firstCloud] = noClouds;
-  if (firstCloud !== undefined && clouds.children.length + place.parts.length === 0) throw firstCloud.fault;
+  if (firstCloud !== undefined && clouds.children.length + place.parts.length === 0 && town === null) throw firstCloud.fault;
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
