@@ -7,6 +7,7 @@ from veduta.surfaces.filling.options import FillParameters, RepeatParameters
 from veduta.surfaces.filling.repeating import Repeated, fill_by_repeats
 from veduta.surfaces.filling.step import Filled, fill_holes
 from veduta.surfaces.normals import face_normals, vertex_normals
+from veduta.surfaces.pieces import compact, vertex_pieces
 from veduta.surfaces.simplification import Simplified, simplify
 from veduta.surfaces.texturing.options import SurfaceView, TextureOptions, TextureParameters
 from veduta.surfaces.texturing.photos import surface_views
@@ -22,6 +23,7 @@ __all__ = [
     "TextureOptions",
     "TextureParameters",
     "TexturedMesh",
+    "compact",
     "distances_from_mesh",
     "face_normals",
     "fill_by_repeats",
@@ -32,4 +34,5 @@ __all__ = [
     "surface_views",
     "texture_mesh",
     "vertex_normals",
+    "vertex_pieces",
 ]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
-from veduta.carve.build.pieces import pieces_of
+from veduta.surfaces import vertex_pieces
 from veduta.carve.views import View, camera_rows
 from veduta.surfaces import vertex_normals
 
@@ -54,7 +54,7 @@ def measure_mesh(
     off = pixel * outline_px
     normals = vertex_normals(positions, triangles)
     moved = [_area(positions + side * off * normals, triangles) for side in (1.0, -1.0)]
-    pieces = int(pieces_of(len(positions), triangles).max()) + 1
+    pieces = int(vertex_pieces(triangles, len(positions)).max()) + 1
     return Measures(
         volume, area * off, area, 0.5 * abs(moved[0] - moved[1]), (x, y, z), pieces
     )

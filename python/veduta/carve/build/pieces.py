@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from veduta import _core
 from veduta.carve.views import View, camera_rows
+from veduta.surfaces import compact, vertex_pieces
 
 Floats = NDArray[np.float64]
 Triangles = NDArray[np.uint32]
@@ -50,7 +49,7 @@ def without_crumbs(
     A closed hollow in the object, which no photo can show, is such a piece, too.
     """
     rule = rule or PiecesRule()
-    label = pieces_of(len(positions), triangles)[triangles[:, 0]]
+    label = vertex_pieces(triangles, len(positions))[triangles[:, 0]]
     corners = positions[triangles] - positions.mean(axis=0)
     cross = np.cross(corners[:, 1], corners[:, 2])
     volume = np.bincount(label, (corners[:, 0] * cross).sum(axis=1) / 6.0)
@@ -59,21 +58,9 @@ def without_crumbs(
         return Pieces(positions, triangles, len(volume), 0, 0.0)
     kept = ~small
     kept[_asked_for(positions, triangles, label, small, views, rule)] = True
-    stays = kept[label]
-    used = np.zeros(len(positions), dtype=np.bool_)
-    used[triangles[stays].ravel()] = True
-    place = np.cumsum(used) - 1
     share = float(np.abs(volume[~kept]).sum() / volume[kept].sum())
-    left = place[triangles[stays]].astype(np.uint32)
-    return Pieces(positions[used], left, int(kept.sum()), int((~kept).sum()), share)
-
-
-def pieces_of(vertices: int, triangles: Triangles) -> NDArray[np.int32]:
-    """(v,) the piece of each vertex: what edges join is one."""
-    starts = np.concatenate([triangles[:, 0], triangles[:, 1]]).astype(np.int64)
-    ends = np.concatenate([triangles[:, 1], triangles[:, 2]]).astype(np.int64)
-    links = coo_matrix((np.ones(len(starts), dtype=np.int8), (starts, ends)), (vertices, vertices))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int32)
+    left = compact(positions, triangles[kept[label]])
+    return Pieces(*left, int(kept.sum()), int((~kept).sum()), share)
 
 
 def _asked_for(

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay, QhullError
 
 from veduta.cameras import Camera
-from veduta.dense.build.surface import compact, part_sizes
+from veduta.dense.build.surface import part_sizes
 from veduta.run.errors import NotFoundError
+from veduta.surfaces import compact
 
 Floats = NDArray[np.float64]
 Faces = NDArray[np.int64]

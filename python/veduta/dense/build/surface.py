@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from veduta import _core
 from veduta.dense.document import DepthMap, Views, camera_row
 from veduta.run.errors import NotFoundError
+from veduta.surfaces import compact, vertex_pieces
 
 BLOCK_BYTES = 4096 + 64
 
@@ -113,9 +112,7 @@ def _without_crumbs(surface: RawSurface, parameters: SurfaceParameters) -> RawSu
 
 def part_sizes(faces: NDArray[np.int64], vertices: int) -> NDArray[np.int64]:
     """(m,) how many triangles hang together with each, by vertices that they share."""
-    edges = np.concatenate([faces[:, :2], faces[:, 1:]])
-    links = coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(vertices, vertices))
-    _, part = connected_components(links, directed=False)
+    part = vertex_pieces(faces, vertices)
     own = part[faces[:, 0]]
     return np.asarray(np.bincount(own, minlength=part.max() + 1)[own], dtype=np.int64)
 
@@ -130,13 +127,3 @@ def cut_surface(surface: RawSurface, box: tuple[float, ...]) -> RawSurface:
         raise NotFoundError("a surface", "none lies in the box", "Give a larger --box.")
     points, triangles = compact(surface.points_m, kept)
     return RawSurface(points, triangles, surface.voxel_m, surface.dropped)
-
-
-def compact(
-    points: NDArray[np.float64], faces: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Only the vertices that are used."""
-    used = np.zeros(len(points), dtype=bool)
-    used[faces.ravel()] = True
-    new = np.cumsum(used) - 1
-    return points[used], new[faces].astype(np.uint32)
