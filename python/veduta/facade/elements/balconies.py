@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.elements.two_colours import two_colours
+from veduta.facade.elements.working_size import at_working_size
 
 Float = NDArray[np.float64]
 Boxes = NDArray[np.float64]
@@ -59,18 +60,13 @@ class BalconyParameters:
 def find_balconies(pixels: NDArray[np.uint8], parameters: BalconyParameters | None = None) -> Boxes:
     """Boxes (n, 4) of the balconies in (h, w, 3) uint8 sRGB pixels of a rectified front."""
     own = parameters or BalconyParameters()
-    scale = own.long_px / max(pixels.shape[:2])
-    size = tuple(max(16, round(side * scale)) for side in pixels.shape[1::-1])
-    way = cv2.INTER_AREA if scale < 1.0 else cv2.INTER_CUBIC
-    small = np.asarray(cv2.resize(pixels, size, interpolation=way), np.uint8)
-    mask = soft_mask(small, own)
+    small = at_working_size(pixels, own.long_px)
+    mask = soft_mask(small.pixels, own)
     side = max(3, round(own.kernel * own.long_px)) | 1
     closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((side, side), np.uint8))
     parts = (closed > own.least_mask).astype(np.uint8)
     _, _, stats, _ = cv2.connectedComponentsWithStats(parts)
-    boxes = _sound(stats[1:], size, own)
-    across, down = pixels.shape[1] / size[0], pixels.shape[0] / size[1]
-    return np.asarray(boxes * (across, down, across, down), np.float64)
+    return small.in_picture(_sound(stats[1:], small.size, own))
 
 
 def soft_mask(pixels: NDArray[np.uint8], own: BalconyParameters) -> Float:

@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.facade.elements.working_size import at_working_size, segments_of
 from veduta.facade.eyes import Seen
 
 Boxes = NDArray[np.float64]
@@ -63,14 +64,10 @@ def find_cornices(
     windows: (k, 4) in the same pixels.
     """
     own = parameters or CorniceParameters()
-    scale = own.long_px / max(pixels.shape[:2])
-    size = tuple(max(16, round(side * scale)) for side in pixels.shape[1::-1])
-    way = cv2.INTER_AREA if scale < 1.0 else cv2.INTER_CUBIC
-    small = np.asarray(cv2.resize(pixels, size, interpolation=way), np.uint8)
-    cut = cv2.ximgproc.segmentation.createGraphSegmentation(
-        own.sigma_px, own.segment_k, own.least_px
-    )
-    segments = _extents(np.asarray(cut.processImage(small[..., ::-1].copy()), np.intp))
+    small = at_working_size(pixels, own.long_px)
+    size = small.size
+    labels = segments_of(small.pixels, own.sigma_px, own.segment_k, own.least_px)
+    segments = _extents(labels)
     wide, high = (segments[:, 2:] - segments[:, :2]).T
     is_long = (wide >= own.elongated * high) & (high <= own.thick * own.long_px)
     to_small = np.array([size[0] / pixels.shape[1], size[1] / pixels.shape[0]] * 2)

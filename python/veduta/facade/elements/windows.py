@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from veduta.facade.elements.grid_energy import EnergyParameters, aligned, grid_energy
 from veduta.facade.elements.texture_error import TextureParameters, blobs, texture_error
+from veduta.facade.elements.working_size import at_working_size, segments_of
 
 Boxes = NDArray[np.float64]
 """(n, 4): left, top, right, bottom in pixels."""
@@ -70,11 +71,8 @@ def find_windows(
 ) -> WindowsFound:
     """The windows of (h, w, 3) uint8 sRGB pixels of a rectified front."""
     own = parameters or WindowParameters()
-    scale = own.long_px / max(pixels.shape[:2])
-    size = tuple(max(16, round(side * scale)) for side in pixels.shape[1::-1])
-    way = cv2.INTER_AREA if scale < 1.0 else cv2.INTER_CUBIC
-    small = np.asarray(cv2.resize(pixels, size, interpolation=way), np.uint8)
-    level = _final_blobs(small, own)
+    small = at_working_size(pixels, own.long_px)
+    level = _final_blobs(small.pixels, own)
     best: tuple[float, float, Boxes] = (-np.inf, 0.0, np.zeros((0, 4)))
     for threshold in own.thresholds:
         boxes = _boxes(level, threshold, own)
@@ -86,8 +84,7 @@ def find_windows(
         return WindowsFound(boxes, 0.0, 0.0, False)
     boxes = aligned(boxes, own.energy)
     own_energy = grid_energy(boxes, own.energy) / len(boxes)
-    across, down = pixels.shape[1] / size[0], pixels.shape[0] / size[1]
-    boxes = boxes * (across, down, across, down)
+    boxes = small.in_picture(boxes)
     return WindowsFound(boxes, own_energy, threshold, own_energy >= own.least_energy)
 
 
@@ -98,7 +95,7 @@ def _final_blobs(small: NDArray[np.uint8], own: WindowParameters) -> Boxes:
     by_texture = blobs(_smooth(texture_error(grey, own.texture), own))
     by_contours = blobs(_smooth(contours, own))
     both = by_texture * by_contours
-    segments = _segments(small, own)
+    segments = segments_of(small, own.sigma_px, own.segment_k, own.least_px)
     sums = np.bincount(segments.ravel(), weights=both.ravel())
     means = sums / np.maximum(np.bincount(segments.ravel()), 1)
     return blobs(_smooth(means[segments], own))
@@ -106,14 +103,6 @@ def _final_blobs(small: NDArray[np.uint8], own: WindowParameters) -> Boxes:
 
 def _smooth(values: Boxes, own: WindowParameters) -> Boxes:
     return np.asarray(cv2.GaussianBlur(values, (0, 0), own.smooth_px), np.float64)
-
-
-def _segments(small: NDArray[np.uint8], own: WindowParameters) -> NDArray[np.intp]:
-    """(h, w) the number of the segment of each pixel."""
-    cut = cv2.ximgproc.segmentation.createGraphSegmentation(
-        own.sigma_px, own.segment_k, own.least_px
-    )
-    return np.asarray(cut.processImage(small[..., ::-1].copy()), np.intp)
 
 
 def _boxes(level: Boxes, threshold: float, own: WindowParameters) -> Boxes:
