@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -100,35 +101,31 @@ def _faults(document: FacadeDocument) -> list[str]:
 
 
 def _outline_faults(elements: list[Element]) -> list[str]:
-    sizes = [len(item.outline_px or ()) for item in elements]
-    found = [
-        f"elements[{index}].outline_px: needs at least three points"
-        for index, (size, item) in enumerate(zip(sizes, elements, strict=True))
-        if item.outline_px is not None and size < 3
-    ]
-    if sum(sizes) > MAX_POINTS:
-        largest = sizes.index(max(sizes))
-        found.append(
-            f"elements[{largest}].outline_px: {sizes[largest]} points, {sum(sizes)} with the other"
-            f" outlines, more than {MAX_POINTS}"
-        )
-    return found
+    rings = {f"elements[{at}].outline_px": one.outline_px for at, one in enumerate(elements)}
+    return _ring_faults(rings, "outlines")
 
 
 def _extent_faults(extents: list[Extent]) -> list[str]:
     if len(extents) > MAX_EXTENTS:
         return [f"extents: {len(extents)}, more than {MAX_EXTENTS}"]
-    sizes = [len(extent.polygon_px) for extent in extents]
+    rings = {f"extents[{at}].polygon_px": one.polygon_px for at, one in enumerate(extents)}
+    return _ring_faults(rings, "extents")
+
+
+def _ring_faults(rings: Mapping[str, Sequence[object] | None], others: str) -> list[str]:
+    """Rings of too few points, or of too many together; None is no ring."""
+    sizes = {name: len(ring or ()) for name, ring in rings.items()}
     found = [
-        f"extents[{index}].polygon_px: needs at least three points"
-        for index, size in enumerate(sizes)
-        if size < 3
+        f"{name}: needs at least three points"
+        for name, ring in rings.items()
+        if ring is not None and sizes[name] < 3
     ]
-    if sum(sizes) > MAX_POINTS:
-        largest = sizes.index(max(sizes))
+    total = sum(sizes.values())
+    if total > MAX_POINTS:
+        largest = max(sizes, key=sizes.__getitem__)
         found.append(
-            f"extents[{largest}].polygon_px: {sizes[largest]} points, {sum(sizes)} with the other"
-            f" extents, more than {MAX_POINTS}"
+            f"{largest}: {sizes[largest]} points, {total} with the other {others}, more than"
+            f" {MAX_POINTS}"
         )
     return found
 
