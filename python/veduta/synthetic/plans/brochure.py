@@ -187,11 +187,7 @@ def _door(canvas: Canvas, wall: Wall, opening: Opening, page: Page) -> None:
     leaf = place.box(hinge, hinge + towards * 0.04, base, base + side * wide)
     canvas.fill(leaf, (255, 255, 255))
     canvas.outline(leaf, page.pen_px, INK)
-    turn = np.linspace(0.0, math.pi / 2.0, 30)
-    arc = [
-        place.at(hinge + towards * wide * math.sin(one), base + side * wide * math.cos(one))
-        for one in turn
-    ]
+    arc = place.sweep((hinge, base), towards * wide, side, 30)
     canvas.line(arc, 0.7 * page.pen_px, INK)
 
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from shapely.geometry import Polygon
 
 from veduta.synthetic.plans import curves
-from veduta.synthetic.plans.dissect import Box, Cell, cell
-from veduta.synthetic.plans.house import Opening, Room, Storey, Use, Wall
-from veduta.synthetic.plans.network import Thickness, room_areas, walls_of
+from veduta.synthetic.plans.dissect import Box, cell
+from veduta.synthetic.plans.house import Opening, Storey, Use, Wall
+from veduta.synthetic.plans.network import Thickness, room_areas, room_of, walls_of
 from veduta.synthetic.seeds import stream
 
 
@@ -73,7 +72,10 @@ def _storey(size: Cottage, rng: np.random.Generator) -> Storey:
     )
     openings = _doors(walls, size, rng) + _windows(walls, uses, rng)
     areas = room_areas(cells, walls)
-    rooms = tuple(_room(name, one, area) for name, one, area in zip(ids, cells, areas, strict=True))
+    rooms = tuple(
+        room_of(name, one.use or "storage", area)
+        for name, one, area in zip(ids, cells, areas, strict=True)
+    )
     return Storey(0, walls, tuple(openings), rooms)
 
 
@@ -120,8 +122,3 @@ def _windows(
             name = f"n{len(found)}"
             found.append(Opening(name, wall.id, "window", "triple-line", along, width))
     return found
-
-
-def _room(name: str, one: Cell, area: Polygon) -> Room:
-    ring = tuple((round(x, 4), round(y, 4)) for x, y in area.exterior.coords[:-1])
-    return Room(name, one.use or "storage", ring, round(area.area, 4))

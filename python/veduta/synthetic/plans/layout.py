@@ -26,6 +26,7 @@ from veduta.synthetic.plans.network import (
     cell_area,
     is_sound,
     room_areas,
+    room_of,
     walls_of,
 )
 from veduta.synthetic.plans.outline import with_features
@@ -191,15 +192,7 @@ def _furnished_with_openings(
 
 
 def _rooms(ids: Sequence[str], uses: dict[str, Use], areas: Sequence[Polygon]) -> tuple[Room, ...]:
-    return tuple(
-        Room(
-            name,
-            uses[name],
-            tuple((round(x, 4), round(y, 4)) for x, y in area.exterior.coords[:-1]),
-            round(area.area, 4),
-        )
-        for name, area in zip(ids, areas, strict=True)
-    )
+    return tuple(room_of(name, uses[name], area) for name, area in zip(ids, areas, strict=True))
 
 
 def _doors(

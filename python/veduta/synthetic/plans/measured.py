@@ -220,16 +220,12 @@ def _window(canvas: Canvas, wall: Wall, opening: Opening, sheet: Survey) -> None
 
 
 def _door(canvas: Canvas, wall: Wall, opening: Opening, sheet: Survey) -> None:
-    """A leaf that stands half open, as surveyors draw it, and its arc."""
+    """An open leaf as a line, its arc, and both faces of the wall across the way."""
     place = place_of(wall, opening)
     side = 1.0 if opening.swing == "left" else -1.0
     wide, base = place.width_m, side * place.half_m
     hinge, towards = (0.0, 1.0) if opening.hinge == "start" else (wide, -1.0)
-    turn = np.linspace(0.0, math.pi / 2.0, 24)
-    arc = [
-        place.at(hinge + towards * wide * math.sin(one), base + side * wide * math.cos(one))
-        for one in turn
-    ]
+    arc = place.sweep((hinge, base), towards * wide, side, 24)
     canvas.line([place.at(hinge, base), arc[0]], 1.5 * sheet.pen_px, INK)
     canvas.line(arc, 0.6 * sheet.pen_px, INK)
     for face in (-place.half_m, place.half_m):
@@ -239,9 +235,8 @@ def _door(canvas: Canvas, wall: Wall, opening: Opening, sheet: Survey) -> None:
 def _chains(canvas: Canvas, storey: Storey, size: Cottage, sheet: Survey) -> None:
     """Sizes in centimetres along the front and the left gable, with slanted ticks."""
     left, bottom, right, _ = whole_walls(storey.walls).bounds
-    doors = {one.id: one for one in storey.openings}
     along = [left, right]
-    for opening in doors.values():
+    for opening in storey.openings:
         wall = storey.wall(opening.wall)
         if wall.outer and wall.start_m[1] == wall.end_m[1] == 0.0:
             place = place_of(wall, opening)

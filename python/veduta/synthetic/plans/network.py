@@ -16,7 +16,7 @@ from shapely.geometry.polygon import orient
 from veduta.synthetic.plans import curves
 from veduta.synthetic.plans.bodies import whole_walls
 from veduta.synthetic.plans.dissect import Cell
-from veduta.synthetic.plans.house import Point, Wall
+from veduta.synthetic.plans.house import Point, Room, Use, Wall
 
 GRID_M = 1e-3
 
@@ -98,6 +98,12 @@ def room_areas(cells: Sequence[Cell], walls: tuple[Wall, ...]) -> list[Polygon]:
         smooth = LineString(largest.exterior.coords).simplify(1e-4)
         rooms.append(orient(Polygon(smooth.coords)))
     return rooms
+
+
+def room_of(name: str, use: Use, area: Polygon) -> Room:
+    """The room of an area that lies between walls."""
+    ring = tuple((round(x, 4), round(y, 4)) for x, y in area.exterior.coords[:-1])
+    return Room(name, use, ring, round(area.area, 4))
 
 
 def is_sound(cells: Sequence[Cell]) -> bool:

@@ -75,11 +75,7 @@ def _leaf(
         canvas.line(
             [place.at(hinge_m, base), place.at(hinge_m, tip)], style.pen_px + 0.5, style.ink
         )
-    angles = np.linspace(0.0, math.pi / 2, 24)
-    arc = [
-        place.at(hinge_m + towards * size * math.sin(a), base + side * size * math.cos(a))
-        for a in angles
-    ]
+    arc = place.sweep((hinge_m, base), length_m, side, 24)
     if style.arc == "quarter":
         canvas.line(arc, style.pen_px * 0.8, style.ink)
     elif style.arc == "dashed":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,6 +30,23 @@ class Place:
     def at(self, along_m: float, left_m: float) -> Spot:
         """A point so far from the first jamb and so far to the left of the centre line."""
         return self.first + along_m * self.along + left_m * self.left
+
+    def sweep(
+        self, hinge_m: tuple[float, float], length_m: float, side: float, points: int
+    ) -> list[Spot]:
+        """The quarter that the tip of a leaf sweeps, from where it stands open to where it is shut.
+
+        It hangs so far along and left, opens to the left (1) or right (-1) of the wall, and closes
+        by `length_m` (signed) along.
+        """
+        along_m, left_m = hinge_m
+        towards, size = math.copysign(1.0, length_m), abs(length_m)
+        return [
+            self.at(
+                along_m + towards * size * math.sin(turn), left_m + side * size * math.cos(turn)
+            )
+            for turn in np.linspace(0.0, math.pi / 2, points)
+        ]
 
     def box(self, low: float, high: float, right: float, left: float) -> Polygon:
         """A rectangle in these coordinates."""

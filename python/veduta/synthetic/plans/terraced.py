@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from shapely.geometry import Polygon
 
 from veduta.synthetic.plans import curves
 from veduta.synthetic.plans.dissect import Box, Cell, cell
@@ -19,12 +18,11 @@ from veduta.synthetic.plans.house import (
     House,
     Opening,
     Point,
-    Room,
     Stairs,
     Storey,
     Wall,
 )
-from veduta.synthetic.plans.network import Thickness, room_areas, walls_of
+from veduta.synthetic.plans.network import Thickness, room_areas, room_of, walls_of
 from veduta.synthetic.seeds import stream
 
 
@@ -187,7 +185,7 @@ class _Made:
         """The storey with what was put into it."""
         areas = room_areas(self.cells, self.walls)
         rooms = tuple(
-            _room(name, one, area)
+            room_of(name, one.use or "storage", area)
             for name, one, area in zip(self.ids, self.cells, areas, strict=True)
         )
         return Storey(number, self.walls, tuple(self.openings), rooms, (flight,))
@@ -195,11 +193,6 @@ class _Made:
 
 _CORNER = 0.14
 """What a door keeps from the middle of the wall beside it, in metres."""
-
-
-def _room(name: str, one: Cell, area: Polygon) -> Room:
-    ring = tuple((round(x, 4), round(y, 4)) for x, y in area.exterior.coords[:-1])
-    return Room(name, one.use or "storage", ring, round(area.area, 4))
 
 
 def _outward(wall: Wall, room: str) -> np.ndarray:
