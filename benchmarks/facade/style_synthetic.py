@@ -15,6 +15,7 @@ import argparse
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ import numpy as np
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
+from real_fronts import as_real  # noqa: E402
 from record import keep_or_print  # noqa: E402
 from style_fronts import TrueFront, read_front, true_front  # noqa: E402
 from style_rows import Row, logs_of, rows_of, told  # noqa: E402
@@ -45,6 +47,7 @@ def main() -> None:
     parser.add_argument("--fronts", type=int, default=6, help="of each style")
     parser.add_argument("--first", type=int, default=FIRST, help="the first seed")
     parser.add_argument("--steps", type=int, default=400)
+    parser.add_argument("--real", action="store_true", help="with the faults of real fronts")
     parser.add_argument("--searches", type=int, default=1, help="fronts with the other searches")
     parser.add_argument("--rows", type=Path, help="where rows are kept as they come")
     parser.add_argument("--most", type=int, help="make no more than so many rows")
@@ -56,10 +59,14 @@ def main() -> None:
     def make(key: str) -> Row:
         seed, style = key.split()
         others = int(seed) < call.first + call.searches
-        return measured(true_front(style, int(seed)), int(seed), call.steps, others)
+        front = true_front(style, int(seed))
+        if call.real:
+            front = replace(front, pixels=as_real(front.pixels, front.px_per_m, int(seed)))
+        return measured(front, int(seed), call.steps, others)
 
     rows = rows_of(call.rows, keys, make, call.most)
-    keep_or_print("facade-style-synthetic", [*summary(rows), *told(rows)], NOTES, not call.draft)
+    name = "facade-style-synthetic-real" if call.real else "facade-style-synthetic"
+    keep_or_print(name, [*summary(rows), *told(rows)], NOTES, not call.draft)
 
 
 NOTES = [

@@ -33,6 +33,8 @@ VERBS = (
 )  # fmt: skip
 DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
 NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+STOPPED = "stopped"
+GOES_ON = ": what is finished is on disk, and the same command does the rest"
 INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
 
 
@@ -55,17 +57,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     same_sums_anywhere()
     # GEOS divides by zero where it mitres a corner that is none; what it gives is right.
     warnings.filterwarnings("ignore", ".* encountered in buffer", RuntimeWarning)
-    return _guarded(verb, lambda: _plainly(verb, words))
+    return _guarded(verb, words, lambda: _plainly(verb, words))
 
 
 def _plainly(verb: str, words: list[str]) -> int:
     """Run a verb under names that are UTF-8; its errors are told by those that were given."""
     module = importlib.import_module(f"veduta.cli.{verb}")
     with plain_words(verb, words) as plain:
-        return _guarded(verb, lambda: int(module.run(plain)))
+        return _guarded(verb, words, lambda: int(module.run(plain)))
 
 
-def _guarded(verb: str, run: Callable[[], int]) -> int:
+def _asks_help(words: Sequence[str]) -> bool:
+    """Whether a call only asks what can be asked."""
+    return not {"-h", "--help"}.isdisjoint(words)
+
+
+def _guarded(verb: str, words: Sequence[str], run: Callable[[], int]) -> int:
     """Run a verb; every error becomes a line on standard error and an exit code."""
     try:
         code = run()
@@ -83,7 +90,7 @@ def _guarded(verb: str, run: Callable[[], int]) -> int:
         _say(f"error: {error}")
         return SOME_FAILED
     except (KeyboardInterrupt, UnfinishedError) as error:
-        _say("stopped: what is finished is on disk, and the same command does the rest")
+        _say(STOPPED if _asks_help(words) else f"{STOPPED}{GOES_ON}")
         return TERMINATED if isinstance(error, UnfinishedError) else INTERRUPTED
     except VedutaError as error:
         _say(f"error: {error}")

@@ -41,4 +41,5 @@ def require_given(call: type[Any], arguments: Sequence[str], prog: str) -> None:
             name = f"{flags[-1]} {told.metavar or ''}".strip()
         if not given:
             what = str(told.help).partition(";")[0]
-            raise InputError(name, f"is missing: {what}", f"`{prog} --help` explains all options.")
+            remedy = f"Give it; `{prog} --help` explains all options."
+            raise InputError(name, f"was not given ({what})", remedy)

@@ -20,7 +20,9 @@ MouldingKind = Literal["cornice", "modillions", "string-course"]
 class MouldingParameters:
     """When rows are a moulding.
 
-    `share`: how much of a row's width is moulding (the thesis, 6.4.3, asks half of the front's).
+    `share`: how much of a row's width is moulding (the thesis, 6.4.3, asks half of the front's), in
+    stretches of which the longest is `unbroken` of the width, where gaps of `gap_m` are none: rows
+    of lintels and pediments are many short ones.
     `chance`: of a pixel. `least_m`, `most_m`: how high one is. `apart_m`: rows nearer than this are
     one. `eaves_m`: one that lies so near to the eaves is the main cornice, others are courses.
     `teeth`: how much of the variation of lightness
@@ -28,6 +30,8 @@ class MouldingParameters:
     """
 
     share: float = 0.5
+    unbroken: float = 0.5
+    gap_m: float = 0.1
     chance: float = 0.4
     least_m: float = 0.1
     most_m: float = 1.6
@@ -56,9 +60,10 @@ def seen_mouldings(
     part = chance[top : round(box.y_px + box.height_px), left:right]
     if part.size == 0:
         return []
-    share = (part > p.chance).mean(axis=1)
+    moulded = _closed(part > p.chance, p.gap_m / metres_per_px)
+    rows = (moulded.mean(axis=1) > p.share) & (_longest(moulded) > p.unbroken * part.shape[1])
     found = []
-    for a, b in _runs(share > p.share, round(p.apart_m / metres_per_px)):
+    for a, b in _runs(rows, round(p.apart_m / metres_per_px)):
         high = (b - a) * metres_per_px
         if not p.least_m <= high <= p.most_m:
             continue
@@ -79,6 +84,19 @@ def seen_mouldings(
             )
         )
     return found
+
+
+def _closed(mask: NDArray[np.bool_], gap: float) -> NDArray[np.bool_]:
+    """The same with gaps along the rows closed up to a length."""
+    kernel = np.ones((1, 2 * round(0.5 * gap) + 1), np.uint8)
+    return np.asarray(cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_CLOSE, kernel) > 0)
+
+
+def _longest(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """(h,) the longest run in each row."""
+    places = np.arange(1, mask.shape[1] + 1)
+    last_gap = np.maximum.accumulate(np.where(mask, 0, places), axis=1)
+    return np.asarray((places - last_gap).max(axis=1), np.int64)
 
 
 def _runs(rows: NDArray[np.bool_], apart: int) -> Sequence[tuple[int, int]]:

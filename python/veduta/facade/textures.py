@@ -42,7 +42,7 @@ _BRICK: Colour = (0.55, 0.36, 0.29)
 _STONE_SHARE = 0.72
 
 # Sky shows at most so far below the eaves, as a share of the front: between gables and the like.
-_SKY_BELOW = 0.1
+_SKY_BELOW = 0.25
 
 Pixels = NDArray[np.uint8]
 
@@ -112,7 +112,7 @@ def make_textures(
         hidden = before[box.y0 : box.y1, box.x0 : box.x1]
     colours = _colours(document, crop, box, ~unseen & (hidden == 0))
     _fill_unseen(document, crop, box, unseen, colours)
-    cleared, invented = _surface_layer(document, crop, box, colours.roof, hidden)
+    cleared, invented = _surface_layer(document, crop, box, colours, hidden)
     return FacadeTextures(
         front=_fitted(crop, unseen, box, whole),
         wall=_fitted(cleared.pixels, invented | unseen, box, whole),
@@ -184,14 +184,21 @@ def _darker(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:
 
 
 def _surface_layer(
-    document: FacadeDocument, crop: Pixels, box: PixelBox, roof: Colour, before: NDArray[np.uint8]
+    document: FacadeDocument,
+    crop: Pixels,
+    box: PixelBox,
+    colours: Colours,
+    before: NDArray[np.uint8],
 ) -> tuple[Cleared, Mask]:
     """The photo without what stands before wall and roof, and the mask of invented pixels."""
     sky = extent_mask(document, box, "sky")
     rows = np.arange(len(crop))[:, None] + box.y0
     above = rows < document.facade.y_px + _SKY_BELOW * document.facade.height_px
     invented = (sky_with_fringe(crop, sky) & above) | element_mask(document, box, "chimney")
-    surface = without_sky(crop, invented, roof)
+    surface = without_sky(crop, invented, colours.roof)
+    # Below the eaves it is the wall that goes on where a lower house beside it leaves sky.
+    below = rows[:, 0] >= document.facade.y_px
+    surface[below] = without_sky(crop, invented, colours.wall)[below]
     cleared = clear_surface(document, surface, box, before)
     return cleared, invented | cleared.filled
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol
@@ -13,6 +14,9 @@ from rich.progress import Progress as Bar
 
 from veduta.run.pool import Task
 from veduta.run.report import Failure
+
+LINE_EVERY_S = 10.0
+"""Where there is no terminal, a single item says so often (s) how far it has come."""
 
 
 class StepProgress(Protocol):
@@ -36,6 +40,7 @@ class Progress:
         self._total = 0
         self._done = 0
         self._steps: list[str] = []
+        self._said_at = 0.0
 
     @contextmanager
     def over(self, total: int, steps: int | None = None) -> Iterator[None]:
@@ -44,6 +49,7 @@ class Progress:
         steps: of one item, if it is the only one; how far it has come is how many of them are done.
         """
         self._total, self._done, self._steps = total, 0, []
+        self._said_at = time.monotonic()
         if not self._console.is_terminal or self._console.quiet:
             yield
             return
@@ -77,6 +83,11 @@ class Progress:
             if self._bar is not None:
                 done = len(self._steps) - 1 + fraction
                 self._bar.update(self._bar.task_ids[0], completed=done)
+            elif time.monotonic() - self._said_at >= LINE_EVERY_S:
+                self._said_at = time.monotonic()
+                names = ", ".join(self._in_hand)
+                told = f"{step} {fraction:.0%}" if fraction > 0.0 else step
+                self.said(f"{names}: {told}" if names else told)
         self._show(f"{step} {fraction:.0%}" if fraction > 0.0 else step)
 
     def finished(self, name: str, failure: Failure | None) -> None:

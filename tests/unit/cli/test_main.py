@@ -70,7 +70,7 @@ def run_verb(monkeypatch: pytest.MonkeyPatch) -> Callable[[BaseException | int],
         (3, 3, ""),
         (InputError("a.jpg", "is empty", "Copy it."), 2, "error: a.jpg: is empty. Copy it.\n"),
         (NotFoundError("facade", "no lines", "Try."), 3, "error: facade not found: no lines"),
-        (KeyboardInterrupt(), 130, "stopped: "),
+        (KeyboardInterrupt(), 130, "stopped: what is finished"),
         (UnfinishedError("by SIGTERM"), 143, "stopped: "),
     ],
 )
@@ -83,6 +83,19 @@ def test_outcomes(
 ) -> None:
     assert run_verb(outcome) == code
     assert capfd.readouterr().err.startswith(told)
+
+
+def test_a_help_text_leaves_nothing_finished(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def verb(_: list[str]) -> int:
+        raise KeyboardInterrupt
+
+    module = types.SimpleNamespace(run=verb, SUMMARY="")
+    monkeypatch.setitem(sys.modules, "veduta.cli.facade", module)
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    assert cli.main(["facade", "--help"]) == 130
+    assert capsys.readouterr().err == "stopped\n"
 
 
 def test_a_bug_is_saved_and_named(

@@ -10,10 +10,10 @@ from veduta.cli import main as cli
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["carve", "photos"], "error: -o OUT: is missing: folder for the results."),
-        (["dense"], "error: CAMERAS: is missing: a result of `veduta photos`"),
-        (["grammar", "derive", "haussmann"], "error: -o OUT: is missing"),
-        (["export", "--force"], "error: OUT: is missing: folder with a place.json"),
+        (["carve", "photos"], "error: -o OUT: was not given (folder for the results). Give it"),
+        (["dense"], "error: CAMERAS: was not given (a result of `veduta photos`"),
+        (["grammar", "derive", "haussmann"], "error: -o OUT: was not given"),
+        (["export", "--force"], "error: OUT: was not given (folder with a place.json"),
     ],
 )
 def test_one_line_says_what_is_missing(

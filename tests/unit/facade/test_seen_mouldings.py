@@ -52,3 +52,15 @@ def test_half_a_front_or_a_thin_line_is_none() -> None:
     assert seen_mouldings(_seen([(160, 170, 0.4)]), pixels, BOX, SCALE) == []
     assert seen_mouldings(_seen([(160, 162, 1.0)]), pixels, BOX, SCALE) == []
     assert seen_mouldings(_seen([(160, 240, 1.0)]), pixels, BOX, SCALE) == []
+
+
+def test_a_row_of_lintels_is_none() -> None:
+    """Hoods over windows take most of a row, but in short stretches."""
+    pixels = np.full((400, 400, 3), 180, np.uint8)
+    seen = _seen([(160, 172, 1.0)])
+    for x in range(10, 160, 25):
+        seen.classes[2, :, x + 18 : x + 25] = 0.0
+    assert seen_mouldings(seen, pixels, BOX, SCALE) == []
+    whole = _seen([(160, 172, 1.0)])
+    whole.classes[2, :, 60:61] = 0.0  # a wire before it
+    assert len(seen_mouldings(whole, pixels, BOX, SCALE)) == 1

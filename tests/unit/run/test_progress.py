@@ -29,6 +29,16 @@ def test_lines(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().err == "[1/2] a: done\n[2/2] b: failed\n"
 
 
+def test_a_long_item_says_where_it_is(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(progress_module, "LINE_EVERY_S", 0.0)
+    work(Progress(), ["a"])
+    assert capsys.readouterr().err == "a: read 50%\n"
+    work(Progress(quiet=True), ["a"])
+    assert capsys.readouterr().err == ""
+
+
 def test_quiet(capsys: pytest.CaptureFixture[str]) -> None:
     work(Progress(quiet=True), ["a", "b"])
     assert capsys.readouterr() == ("", "")

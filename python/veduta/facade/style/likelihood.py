@@ -54,9 +54,18 @@ def log_likelihood(
 ) -> float:
     """Natural logarithm, against a front of which nothing is known."""
     own = parameters or LikelihoodParameters()
+    cells, elements = parts_of(front, observed, own)
+    return own.pixels * cells + own.elements * elements
+
+
+def parts_of(
+    front: Front, observed: Observed, parameters: LikelihoodParameters | None = None
+) -> tuple[float, float]:
+    """What the logarithm is the mean of: that of the cells, and that of the elements."""
+    own = parameters or LikelihoodParameters()
     labels = painted(front, observed.shape, observed.cell_m)
     cells = float(np.take_along_axis(observed.ratios, labels[None], axis=0).sum())
-    return own.pixels * cells + own.elements * _elements(front, observed, own)
+    return cells, _elements(front, observed, own)
 
 
 def _elements(front: Front, observed: Observed, own: LikelihoodParameters) -> float:

@@ -11,7 +11,7 @@ from veduta.facade.options import StyleOptions
 from veduta.facade.style.infer import infer_style
 from veduta.facade.style.observed import observe
 from veduta.facade.style.search import SearchParameters
-from veduta.facade.style.told import CAVEAT, style_line, style_picture, style_tables
+from veduta.facade.style.told import CAVEAT, next_step, style_line, style_picture, style_tables
 from veduta.facade.style.write import style_files
 from veduta.facade.style_told import StyleTold
 from veduta.run.errors import NotFoundError
@@ -59,7 +59,7 @@ def find_style(
         tables=tuple(style_tables(found)),
         pictures=(style_picture(found),),
         files=style_files(found, document.source.image),
-        line=f"{style_line(found)}; {CAVEAT}",
+        line=f"{style_line(found)}; {CAVEAT}. {next_step(found, options.style)}",
     )
     return _noted(document, told.line), told
 

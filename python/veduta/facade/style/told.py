@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageColor
 
 from veduta.facade.style.grammar import ANY_FRONT
-from veduta.facade.style.infer import Candidate, StyleFound
+from veduta.facade.style.infer import AUTO, Candidate, StyleFound
 from veduta.facade.style.labels import painted
 from veduta.facade.style.observed import LABELS, Observed
 from veduta.facade.style.posterior import Scored
@@ -40,6 +40,17 @@ def style_line(found: StyleFound) -> str:
     if name == ANY_FRONT:
         return f"{line}; of the styles, {found.chosen.name} fits best"
     return line
+
+
+def next_step(found: StyleFound, asked: str) -> str:
+    """What one can do with it: derive the rules, or name another style."""
+    again = "Its rules, with what was found: style/rules.cga (`veduta grammar derive`)"
+    if asked != AUTO:
+        return again
+    others = [c.name for c in found.candidates if c.name not in (ANY_FRONT, found.chosen.name)]
+    return (
+        f"{again}; where you know better, name the style: --style {others[0]}" if others else again
+    )
 
 
 def style_tables(found: StyleFound) -> list[Table]:
