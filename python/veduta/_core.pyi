@@ -465,9 +465,14 @@ class DerivedLots:
         kinds: Sequence[str],
         textures: Sequence[tuple[str, tuple[float, float, float]]] = ...,
         volumes: DerivedLots | None = None,
-    ) -> tuple[str, list[tuple[int, str, str, str]], str]:
-        """Geometry, installations (class, rule, colour, geometry) and vertices (mm) of a lot at its place, as
-        texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+    ) -> tuple[
+        str,
+        list[tuple[int, str, str, str]],
+        str,
+        tuple[list[tuple[int, tuple[int, int, int]]], str, str],
+    ]:
+        """Geometry, installations (class, rule, colour, geometry), vertices (mm) and looks (pictures with
+        their tints, `materials`, `vertices-texture`) of a lot at its place, as texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
         `textures` have their mean colours (sRGB). `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
         geometries of LoD 1.2 and 2.2.
         """

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 
 use veduta_geometry::{triangulate_sound, PolygonSet};
 
+use crate::city_looks::{colour, texture_of, FaceLook, Looks, Material, Tinted};
 use crate::derived_lot::Derived;
 use crate::flat::Flat;
 use crate::tiles::Textures;
@@ -25,6 +26,11 @@ pub(crate) struct CityText {
     pub installations: Vec<(u8, String, String, String)>,
     /// Three whole numbers each, as a JSON array.
     pub vertices: String,
+    /// The pictures of `textures` that faces show, with their tints, as the geometries count them.
+    pub textures: Vec<Tinted>,
+    /// `materials` and `vertices-texture`, as JSON arrays.
+    pub materials: String,
+    pub corners: String,
 }
 
 pub type Vertex = [i64; 3];
@@ -49,6 +55,7 @@ struct Face {
     feature: usize,
     /// sRGB, of 255.
     colour: [u8; 3],
+    look: FaceLook,
     rings: Vec<Vec<u32>>,
     normal_z: f64,
 }
@@ -89,20 +96,21 @@ pub(crate) fn city(
             })
         })
         .collect();
+    let mut looks = Looks::default();
     let installations = of_feature
         .iter()
         .enumerate()
         .filter(|(_, all)| !all.is_empty());
     let installations = installations.map(|(feature, all)| {
         let (surfaces, values) = by_direction(all);
-        let text = geometry(all, &surfaces, &values);
+        let text = geometry(all, &surfaces, &values, &mut looks);
         let colour = hexed(all[0].colour);
         (classes[feature], lot.names[feature].clone(), colour, text)
     });
-    let installations = installations.collect();
+    let installations: Vec<_> = installations.collect();
     let mut own = Vec::new();
     if !body.is_empty() {
-        own.push(geometry(&body, &surfaces, &values));
+        own.push(geometry(&body, &surfaces, &values, &mut looks));
     }
     if let Some(volume) = volume {
         own.extend(volumes(volume, place, kinds, textures, &code, &mut grid)?);
@@ -111,6 +119,9 @@ pub(crate) fn city(
         body: own.join(","),
         installations,
         vertices: vertices_text(&grid.vertices),
+        textures: looks.textures().to_vec(),
+        materials: looks.materials_text(),
+        corners: looks.corners_text(),
     })
 }
 
@@ -127,23 +138,16 @@ fn faces(
     let sound = triangulate_sound(&set, PLANE_TOLERANCE_M);
     let mut found = Vec::new();
     for polygon in (0..set.len()).filter(|&polygon| sound.is_sound[polygon]) {
-        let on_grid: Vec<Vec<Vertex>> = set
-            .rings(polygon)
-            .map(|range| {
-                let point = |vertex| {
-                    let own: [f64; 3] = set.position_m(vertex);
-                    [0, 1, 2].map(|k| ((own[k] + place[k]) * STEPS_PER_M).round() as i64)
-                };
-                let mut ring: Vec<Vertex> = range.map(point).collect();
-                ring.dedup();
-                while ring.len() > 1 && ring.first() == ring.last() {
-                    ring.pop();
-                }
-                ring
-            })
-            .filter(|ring| ring.len() > 2)
-            .collect();
-        let is_whole = on_grid.iter().all(|ring| {
+        let texture = texture_of(lot, &flat, polygon, textures);
+        let (mut on_grid, mut on_picture) = (Vec::new(), Vec::new());
+        for range in set.rings(polygon) {
+            let (ring, corners) = ring_on_grid(lot, &set, range, place);
+            if ring.len() > 2 {
+                on_grid.push(ring);
+                on_picture.push(corners);
+            }
+        }
+        let is_whole = on_grid.iter().all(|ring: &Vec<Vertex>| {
             let distinct: HashSet<&Vertex> = ring.iter().collect();
             distinct.len() == ring.len()
         });
@@ -153,9 +157,15 @@ fn faces(
         let mut number = |vertex: Vertex| grid.number(vertex);
         let rings = on_grid.into_iter();
         let leaf = flat.feature[polygon] as usize;
+        let ([red, green, blue], opacity) = colour(lot, &flat, polygon, textures);
+        let material: Material = [red, green, blue, opacity];
         found.push(Face {
             feature: lot.surfaces.of_feature[leaf] as usize,
-            colour: colour(lot, &flat, polygon, textures),
+            colour: [red, green, blue],
+            look: FaceLook {
+                material,
+                texture: texture.map(|texture| (texture, on_picture)),
+            },
             rings: rings
                 .map(|ring| ring.into_iter().map(&mut number).collect())
                 .collect(),
@@ -165,22 +175,28 @@ fn faces(
     Ok(found)
 }
 
-/// The colour of a polygon, with the mean colour of its texture.
-fn colour(lot: &Derived, flat: &Flat<'_>, polygon: usize, textures: &Textures) -> [u8; 3] {
-    let packed = &lot.packed;
-    let leaf = flat.feature[polygon] as usize;
-    let look = &packed.looks[packed.feature_look[leaf] as usize];
-    let own = packed.polygon_feature.len();
-    let of_asset = polygon.checked_sub(own).map(|row| flat.slots[row]);
-    let seen = match of_asset {
-        Some((asset, slot)) => {
-            let slot = &packed.assets[asset as usize].slots()[slot as usize];
-            let texture = slot.texture.as_ref().map(|(name, _)| name.as_ref());
-            textures.seen_as(slot.colour_in(look.colour), texture).0
+/// A ring at its place on whole millimetres without corners that fall together, and where its
+/// corners lie on the picture.
+fn ring_on_grid(
+    lot: &Derived,
+    set: &PolygonSet,
+    range: std::ops::Range<usize>,
+    place: [f64; 3],
+) -> (Vec<Vertex>, Vec<[f32; 2]>) {
+    let (mut ring, mut corners): (Vec<Vertex>, Vec<[f32; 2]>) = (Vec::new(), Vec::new());
+    for vertex in range {
+        let own: [f64; 3] = set.position_m(vertex);
+        let point = [0, 1, 2].map(|k| ((own[k] + place[k]) * STEPS_PER_M).round() as i64);
+        if ring.last() != Some(&point) {
+            ring.push(point);
+            corners.push(lot.packed.uv.get(vertex).copied().unwrap_or_default());
         }
-        None => textures.seen(look).0,
-    };
-    seen.map(|share| (share * 255.0).round().clamp(0.0, 255.0) as u8)
+    }
+    while ring.len() > 1 && ring.first() == ring.last() {
+        ring.pop();
+        corners.pop();
+    }
+    (ring, corners)
 }
 
 fn hexed([red, green, blue]: [u8; 3]) -> String {
@@ -325,7 +341,7 @@ fn solid(lod: &str, faces: Vec<VolumeFace>, vertices: &[Vertex], grid: &mut Grid
     )
 }
 
-fn geometry(faces: &[&Face], surfaces: &[String], values: &[usize]) -> String {
+fn geometry(faces: &[&Face], surfaces: &[String], values: &[usize], looks: &mut Looks) -> String {
     let rings: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.rings).collect();
     let boundaries: Vec<String> = rings.iter().map(|rings| rings_text(rings)).collect();
     let values: Vec<String> = values.iter().map(ToString::to_string).collect();
@@ -334,8 +350,10 @@ fn geometry(faces: &[&Face], surfaces: &[String], values: &[usize]) -> String {
     } else {
         ("MultiSurface", "", "")
     };
+    let seen: Vec<&FaceLook> = faces.iter().map(|face| &face.look).collect();
+    let look = looks.members(&seen, open, close);
     format!(
-        r#"{{"type":"{kind}","lod":"3","boundaries":{open}[{}]{close},"semantics":{{"surfaces":[{}],"values":{open}[{}]{close}}}}}"#,
+        r#"{{"type":"{kind}","lod":"3","boundaries":{open}[{}]{close},"semantics":{{"surfaces":[{}],"values":{open}[{}]{close}}}{look}}}"#,
         boundaries.join(","),
         surfaces.join(","),
         values.join(",")

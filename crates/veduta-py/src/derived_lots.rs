@@ -58,7 +58,9 @@ type Colour = (f32, f32, f32);
 type Extent = (Point, Point, usize);
 type Point = (f64, f64, f64);
 /// Geometry, installations, vertices.
-type CityTexts = (String, Vec<(u8, String, String, String)>, String);
+type CityTexts = (String, Vec<(u8, String, String, String)>, String, CityLooks);
+/// Pictures (number, tint of sRGB) in order, `materials`, `vertices-texture`.
+type CityLooks = (Vec<(u32, (u8, u8, u8))>, String, String);
 
 #[pymethods]
 impl DerivedLots {
@@ -160,8 +162,8 @@ impl DerivedLots {
         }))
     }
 
-    /// Geometry, installations (class, rule, colour, geometry) and vertices (mm) of a lot at its place, as
-    /// texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+    /// Geometry, installations (class, rule, colour, geometry), vertices (mm) and looks (pictures with
+    /// their tints, `materials`, `vertices-texture`) of a lot at its place, as texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
     /// `textures` have their mean colours (sRGB). `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
     /// geometries of LoD 1.2 and 2.2.
     #[pyo3(signature = (lot, place, classes, kinds, textures=Vec::new(), volumes=None))]
@@ -197,7 +199,10 @@ impl DerivedLots {
         };
         let made = py.detach(|| city(derived, volume, place, &kinds, &textures, code));
         let text = made.map_err(PyValueError::new_err)?;
-        Ok((text.body, text.installations, text.vertices))
+        let tinted = text.textures.into_iter();
+        let tinted = tinted.map(|(number, [r, g, b])| (number, (r, g, b)));
+        let looks = (tinted.collect(), text.materials, text.corners);
+        Ok((text.body, text.installations, text.vertices, looks))
     }
 
     /// The buffers of a tile with these lots, each at its place (m, z up); `classes` and

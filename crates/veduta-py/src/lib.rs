@@ -8,6 +8,7 @@ mod cards;
 mod carve;
 mod chain;
 mod city;
+mod city_looks;
 mod compress;
 mod depth_maps;
 mod derivation;

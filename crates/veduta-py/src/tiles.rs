@@ -41,11 +41,17 @@ impl Textures {
         self.seen_as(look.colour, look.texture.as_deref())
     }
 
+    /// The number of a texture; None where nobody knows it.
+    pub fn number(&self, name: &str) -> Option<u32> {
+        let place = self.named.iter().position(|(own, _)| own == name)?;
+        Some(place as u32)
+    }
+
     /// The same of a colour and the name of a texture.
     pub fn seen_as(&self, colour: [f32; 3], texture: Option<&str>) -> ([f32; 3], Option<u32>) {
         let known = texture.and_then(|name| {
-            let place = self.named.iter().position(|(own, _)| own == name)?;
-            Some((place as u32, self.named[place].1))
+            let number = self.number(name)?;
+            Some((number, self.named[number as usize].1))
         });
         match known {
             Some((number, _)) if self.shown => (colour, Some(number)),

@@ -1,17 +1,17 @@
 """CityJSON 2.0 and CityJSONSeq of derived buildings, from the texts of their geometry.
 
 https://www.cityjson.org/specs/2.0.1/ and https://www.cityjson.org/cityjsonseq/ - each building is a
-line of its own (`CityJSONFeature`) with its own vertices; a CityJSON file is all of them with
-shared vertices. What rules leave is mostly open surfaces: a MultiSurface; what closes is a Solid.
-A building seen from afar gives closed volumes, which stand beside it as LoD 1.2 and 2.2.
+line of its own (`CityJSONFeature`) with its own vertices; a CityJSON file (`cityjson_joined`) is
+all of them with shared vertices. What rules leave is mostly open surfaces: a MultiSurface; what
+closes is a Solid. A building seen from afar gives closed volumes, which stand beside it as LoD 1.2
+and 2.2. Faces have their colours as materials, and their pictures where rules give them one.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,22 +21,29 @@ from numpy.typing import NDArray
 from veduta.place.semantics import CITYJSON_SURFACE, Provenance, SemanticClass
 
 FORM = re.compile(r'\{"type":"(Solid|MultiSurface)","lod":"([0-9.]+)"')
-VERTICES = '"vertices":'
-"""The last member of a line."""
-VERTICES_AT_ONCE = 10_000
 GRID_M = 1e-3
 """Vertices are whole millimetres."""
 INSTALLATIONS = frozenset({SemanticClass.BALCONY, SemanticClass.CORNICE, SemanticClass.CHIMNEY})
 CLASSES = [semantic.value for semantic in SemanticClass]
 KINDS = ["" if one in INSTALLATIONS else CITYJSON_SURFACE[one] for one in SemanticClass]
 
-Geometry = tuple[str, list[tuple[int, str, str, str]], str]
-"""Of the building, of its installations (class, rule, colour, geometry), and the vertices."""
+Tint = tuple[int, int, int]
+"""sRGB, of 255: what a picture is multiplied by."""
+Looks = tuple[list[tuple[int, Tint]], str, str]
+"""The pictures (number and tint) that geometries count, `materials`, `vertices-texture`."""
+Geometry = tuple[str, list[tuple[int, str, str, str]], str, Looks]
+"""Of the building, of its installations (class, rule, colour, geometry), vertices, looks."""
+Images = Callable[[int, Tint], str]
+"""The path of a picture in a tint, seen from the file."""
+THEME = "rules"
+"""The theme of materials and textures that geometries name."""
 
 
-def feature_line(building: str, attributes: Mapping[str, Any], geometry: Geometry) -> str | None:
+def feature_line(
+    building: str, attributes: Mapping[str, Any], geometry: Geometry, images: Images
+) -> str | None:
     """The line of a building; None where it has no surface."""
-    body, installations, vertices = geometry
+    body, installations, vertices, looks = geometry
     if not body and not installations:
         return None
     children = [f"{building}/{number}" for number in range(len(installations))]
@@ -54,8 +61,24 @@ def feature_line(building: str, attributes: Mapping[str, Any], geometry: Geometr
         objects.append(_object(name, more, text))
     return (
         f'{{"type":"CityJSONFeature","id":{json.dumps(building)},'
-        f'"CityObjects":{{{",".join(objects)}}},"vertices":{vertices}}}'
+        f'"CityObjects":{{{",".join(objects)}}},{_appearance(looks, images)}"vertices":{vertices}}}'
     )
+
+
+def _appearance(looks: Looks, images: Images) -> str:
+    pictures, materials, corners = looks
+    told = {"default-theme-material": THEME}
+    text = json.dumps(told | ({"default-theme-texture": THEME} if pictures else {}))[1:-1]
+    text += f',"materials":{materials}'
+    if pictures:
+        shown = [texture(images(number, tint)) for number, tint in pictures]
+        text += f',"textures":{json.dumps(shown)},"vertices-texture":{corners}'
+    return f'"appearance":{{{text}}},'
+
+
+def texture(image: str) -> dict[str, str]:
+    """What CityJSON says of a picture that repeats."""
+    return {"type": "JPG", "image": image, "wrapMode": "wrap", "textureType": "typical"}
 
 
 def relief_line(name: str, points_m: NDArray[np.float64], triangles: NDArray[np.int32]) -> str:
@@ -111,70 +134,3 @@ def write_sequence(path: Path, first: Mapping[str, Any], pieces: Iterable[Path])
         for piece in pieces:
             with piece.open(encoding="utf-8") as lines:
                 out.writelines(lines)
-
-
-def write_joined(path: Path, first: Mapping[str, Any], pieces: Sequence[Path]) -> None:
-    """Write CityJSON from files of lines: one list of vertices for all.
-
-    The lines are read twice, one in memory at a time: for the vertices, and for the rest.
-    """
-    shared, number = _shared_vertices(pieces)
-    head = json.dumps(
-        {name: value for name, value in first.items() if name not in ("CityObjects", "vertices")},
-        separators=(",", ":"),
-        allow_nan=False,
-    )
-    begin = 0
-    with path.open("w", encoding="utf-8") as out:
-        out.write(f'{head[:-1]},"CityObjects":{{')
-        for line in _lines(pieces):
-            feature = json.loads(line)
-            own = number[begin : begin + len(feature["vertices"])].tolist()
-            for one in feature["CityObjects"].values():
-                for geometry in one.get("geometry", ()):
-                    geometry["boundaries"] = _renumbered(geometry["boundaries"], own)
-            text = json.dumps(feature["CityObjects"], separators=(",", ":"), allow_nan=False)
-            out.write(f"{',' if begin else ''}{text[1:-1]}")
-            begin += len(own)
-        out.write('},"vertices":[')
-        for row in range(0, len(shared), VERTICES_AT_ONCE):
-            text = json.dumps(shared[row : row + VERTICES_AT_ONCE].tolist(), separators=(",", ":"))
-            out.write(f"{',' if row else ''}{text[1:-1]}")
-        out.write("]}")
-
-
-def _lines(pieces: Iterable[Path]) -> Iterator[str]:
-    for piece in pieces:
-        with piece.open(encoding="utf-8") as lines:
-            yield from lines
-
-
-def _shared_vertices(pieces: Iterable[Path]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The distinct vertices (n, 3) in order, and the number of each one of the lines there."""
-    found: list[NDArray[np.int64]] = []
-    for line in _lines(pieces):
-        own = line.rstrip()[line.rindex(VERTICES) + len(VERTICES) : -1]
-        found.append(np.array(json.loads(own), dtype=np.int64).reshape(-1, 3))
-    if not found:
-        return np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64)
-    every = np.concatenate(found)
-    found.clear()
-    low = every.min(axis=0)
-    spans = [int(span) + 1 for span in every.max(axis=0) - low]
-    if math.prod(spans) >= 2**63:
-        distinct, number = np.unique(every, axis=0, return_inverse=True)
-        return distinct, number.reshape(-1)
-    # One number for the three of a vertex, in the same order: a third of the memory.
-    every -= low
-    packed = (every[:, 0] * spans[1] + every[:, 1]) * spans[2] + every[:, 2]
-    del every
-    keys, number = np.unique(packed, return_inverse=True)
-    rest, z = np.divmod(keys, spans[2])
-    x, y = np.divmod(rest, spans[1])
-    return np.column_stack([x, y, z]) + low, number
-
-
-def _renumbered(boundaries: Any, number: list[int]) -> Any:
-    if boundaries and isinstance(boundaries[0], int):
-        return [number[vertex] for vertex in boundaries]
-    return [_renumbered(one, number) for one in boundaries]

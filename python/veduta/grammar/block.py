@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from veduta import _core
-from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line, forms_of
+from veduta.formats.cityjson_text import CLASSES, KINDS, Tint, feature_line, forms_of
 from veduta.formats.tiles import Tile
 from veduta.grammar.building import Building, NothingBuiltError, build
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
@@ -26,7 +26,7 @@ from veduta.grammar.project import SearchPath
 from veduta.grammar.quadtree import squares
 from veduta.grammar.reported import FILE, Values, as_attributes, as_json, sums_of, table, values_of
 from veduta.grammar.textures import read_textures, with_builtin
-from veduta.grammar.tile_pictures import tile_pictures
+from veduta.grammar.tile_pictures import picture_file, tile_pictures
 from veduta.grammar.town import Built, Town, built_of, prisms
 from veduta.place.part import Part
 from veduta.place.place import ModelFile, Place
@@ -91,6 +91,7 @@ class BlockResult:
     failures: Failures = field(default_factory=Failures)
     notes: Counter[str] = field(default_factory=Counter)
     forms: Counter[str] = field(default_factory=Counter)
+    tinted: set[tuple[str, Tint]] = field(default_factory=set)
     steps: list[StepRecord] = field(default_factory=list)
 
     def summary(self, name: str) -> dict[str, Any]:
@@ -104,6 +105,7 @@ class BlockResult:
             "classes": {kind: count for kind, count in sorted(town.classes.items()) if count},
             "dropped": town.dropped,
             "pictures": sorted(town.shown),
+            "tinted": [[name, list(tint)] for name, tint in sorted(self.tinted)],
             "notes": dict(self.notes.most_common(50)),
             "forms": dict(sorted(self.forms.items())),
             "tabled": any(values for _, _, values in self.reported),
@@ -254,14 +256,20 @@ def _city(
     With `volumes`, the lots at their lowest level, closed volumes stand beside it; not of lots with
     edits, which have but one level.
     """
-    named = [picture.named for picture in result.town.pictures]
+    pictures = result.town.pictures
+    named = [picture.named for picture in pictures]
+
+    def image(number: int, tint: Tint) -> str:
+        result.tinted.add((pictures[number].name, tint))
+        return picture_file(pictures[number].name, tint)
+
     for row, one in zip(rows, built, strict=True):
         derived = next(level for level in levels if level.extent(row) is not None)
         closed = None if one.lot.edits else volumes
         geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS, named, closed)
         about = without_edges(one.lot.attributes) | {"name": one.lot.name, "provenance": "invented"}
         about |= as_attributes(reported[one.lot.id], about)
-        line = feature_line(one.lot.id, about, geometry)
+        line = feature_line(one.lot.id, about, geometry, image)
         if line:
             yield f"{line}\n"
         result.forms.update(forms_of(geometry))

@@ -16,7 +16,7 @@ from veduta.grammar.ground_regions import grounds_of
 from veduta.grammar.report import Whole
 from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.squares import Squares
-from veduta.grammar.textures import with_builtin
+from veduta.grammar.textures import WHITE, with_builtin
 from veduta.grammar.tile_pictures import picture_files
 from veduta.place.place import ModelFile, Place
 from veduta.run.atomic import write_bytes
@@ -25,8 +25,10 @@ GROUND = "ground"
 
 
 def write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:
-    """The pictures that tiles show, once for all of them."""
-    shown = {name for _, summary in whole.blocks for name in summary["pictures"]}
+    """The pictures that tiles and CityJSON show, once for all of them."""
+    shown = {(name, WHITE) for _, summary in whole.blocks for name in summary["pictures"]}
+    for _, summary in whole.blocks:
+        shown |= {(name, (red, green, blue)) for name, (red, green, blue) in summary["tinted"]}
     for file, data in picture_files(with_builtin(textures), sorted(shown)).items():
         (work / file).parent.mkdir(exist_ok=True)
         (work / file).write_bytes(data)

@@ -13,7 +13,8 @@ from typing import Any
 
 from pydantic import JsonValue
 
-from veduta.formats.cityjson_text import header, write_joined, write_sequence
+from veduta.formats.cityjson_joined import write_joined
+from veduta.formats.cityjson_text import header, write_sequence
 from veduta.formats.tiles import write_tileset
 from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Job, run_block
@@ -51,7 +52,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "12"
+VERSION = "13"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""

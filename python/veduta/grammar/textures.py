@@ -38,6 +38,8 @@ MAX_PIXELS = 2**26
 MAX_KEPT = 2**28
 """Bytes of the pictures that a process keeps, if they are several."""
 JPEG_QUALITY = 85
+Tint = tuple[int, int, int]
+WHITE: Tint = (255, 255, 255)
 _SAMPLES = 512
 """Rows and columns that a mean colour is taken of."""
 _NAMED = re.compile(
@@ -189,14 +191,17 @@ def read_textures(files: Mapping[str, str]) -> Textures:
     return textures
 
 
-def as_jpeg(path: str, most_px: int | None = None) -> bytes:
+def as_jpeg(path: str, most_px: int | None = None, tint: Tint = WHITE) -> bytes:
     """A picture of `find_textures` as JPEG, made smaller where a side has more than `most_px`.
 
-    InputError where it cannot be read.
+    tint: what its sRGB values are multiplied by, of 255. InputError where it cannot be read.
     """
     image = Image.fromarray(Textures({path: path})[path].pixels)
     if most_px is not None:
         image.thumbnail((most_px, most_px), Image.Resampling.LANCZOS)
+    if tint != WHITE:
+        seen = np.asarray(image) * (np.array(tint) / 255.0)
+        image = Image.fromarray(np.round(seen).astype(np.uint8))
     return jpeg_bytes(image, JPEG_QUALITY, optimize=True)
 
 

@@ -1,4 +1,7 @@
-"""The pictures of rule files as tiles have them: stored once for all tiles of a place."""
+"""The pictures of rule files as tiles have them: stored once for all tiles of a place.
+
+CityJSON knows no colour that a picture is multiplied by: there, each tint is a picture of its own.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from veduta.grammar.textures import as_jpeg, mean_of
+from veduta.grammar.textures import WHITE, Tint, as_jpeg, mean_of
 from veduta.place.material import Colour
 
 FOLDER = "textures"
@@ -34,15 +37,21 @@ class TilePicture:
 
 def tile_pictures(textures: Mapping[str, str]) -> list[TilePicture]:
     """The pictures of `find_textures`; the paths of their files depend on their names alone."""
-    return [TilePicture(name, _file(name), mean_of(path)) for name, path in textures.items()]
+    return [TilePicture(name, picture_file(name), mean_of(path)) for name, path in textures.items()]
 
 
-def picture_files(textures: Mapping[str, str], names: Iterable[str]) -> dict[str, bytes]:
-    """The files of these pictures, JPEG, by their paths in OUT."""
-    return {_file(name): as_jpeg(textures[name], MAX_SIDE) for name in names}
+def picture_files(
+    textures: Mapping[str, str], shown: Iterable[tuple[str, Tint]]
+) -> dict[str, bytes]:
+    """The files of these pictures in these tints, JPEG, by their paths in OUT."""
+    return {
+        picture_file(name, tint): as_jpeg(textures[name], MAX_SIDE, tint) for name, tint in shown
+    }
 
 
-def _file(name: str) -> str:
-    """A path that other names do not have, on any system."""
+def picture_file(name: str, tint: Tint = WHITE) -> str:
+    """A path that other names and tints do not have, on any system."""
     stem = re.sub(r"[^A-Za-z0-9]+", "-", name.rpartition("/")[2].partition(".")[0]).strip("-")
-    return f"{FOLDER}/{stem[:40] or 'picture'}-{hashlib.sha256(name.encode()).hexdigest()[:8]}.jpg"
+    digest = hashlib.sha256(name.encode()).hexdigest()[:8]
+    colour = "" if tint == WHITE else "-{:02x}{:02x}{:02x}".format(*tint)
+    return f"{FOLDER}/{stem[:40] or 'picture'}-{digest}{colour}.jpg"

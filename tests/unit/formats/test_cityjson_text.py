@@ -10,13 +10,14 @@ import numpy as np
 import trimesh
 
 from veduta import _core
+from veduta.formats.cityjson_joined import write_joined
 from veduta.formats.cityjson_text import (
     CLASSES,
     KINDS,
+    Tint,
     feature_line,
     forms_of,
     header,
-    write_joined,
 )
 
 BOX = """
@@ -34,12 +35,18 @@ Shelf --> set(material.name, "cornice") extrude(0.3)
 SQUARE = [[(0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 5.0, 0.0), (0.0, 5.0, 0.0)]]
 
 
+def no_image(number: int, tint: Tint) -> str:
+    raise AssertionError((number, tint))
+
+
 def line(rules: str, name: str = "a", x: float = 0.0) -> dict[str, Any]:
     derived = _core.derive_lots(
         _core.GrammarRules([("a.cga", rules)]), [SQUARE], [0], attributes=[{}], edits=[[]]
     )
     assert derived.fault(0) is None
-    text = feature_line(name, {"street": 'Rue "A"'}, derived.city(0, (x, 0.0, 0.0), CLASSES, KINDS))
+    text = feature_line(
+        name, {"street": 'Rue "A"'}, derived.city(0, (x, 0.0, 0.0), CLASSES, KINDS), no_image
+    )
     assert text is not None
     feature: dict[str, Any] = json.loads(text)
     return feature
@@ -110,7 +117,7 @@ def volumes(rules: str) -> tuple[dict[str, Any], dict[str, trimesh.Trimesh]]:
     )
     assert derived.fault(0) is None
     texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, volumes=derived)
-    feature = json.loads(feature_line("a", {}, texts) or "")
+    feature = json.loads(feature_line("a", {}, texts, no_image) or "")
     points = np.array(feature["vertices"]) / 1000
     found = {}
     for geometry in feature["CityObjects"]["a"]["geometry"][1:]:
@@ -155,3 +162,81 @@ def test_forms_are_those_of_the_building() -> None:
     )
     texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, volumes=derived)
     assert forms_of(texts) == ["Solid 3", "Solid 2.2"]
+
+
+SHOWN = """
+Lot --> extrude(world.up, 3) comp(f) { front : Front | top : Roof | all : NIL }
+Front --> set(material.name, "wall") color("#808080") setupProjection(0, scope.xy, 2, 1)
+    projectUV(0) texture("brick.jpg") F.
+Roof --> set(material.name, "roof") color("#402010") R.
+"""
+
+
+def shown(name: str, x: float) -> dict[str, Any]:
+    derived = _core.derive_lots(
+        _core.GrammarRules([("a.cga", SHOWN)]), [SQUARE], [0], attributes=[{}], edits=[[]]
+    )
+    assert derived.fault(0) is None
+    known = [("other.jpg", (1.0, 1.0, 1.0)), ("brick.jpg", (0.5, 0.25, 0.25))]
+    texts = derived.city(0, (x, 0.0, 0.0), CLASSES, KINDS, known)
+    made: dict[str, Any] = json.loads(
+        feature_line(name, {}, texts, lambda number, tint: f"{number}-{tint}.jpg") or ""
+    )
+    return made
+
+
+def corners_of(city: dict[str, Any], name: str) -> dict[tuple[float, ...], list[float]]:
+    """Where each corner (mm, from the left of the front) of the face with a picture lies on it."""
+    (geometry,) = city["CityObjects"][name]["geometry"]
+    at = city["appearance"]["vertices-texture"]
+    found = {}
+    for face, mapped in zip(
+        geometry["boundaries"], geometry["texture"]["rules"]["values"], strict=True
+    ):
+        for ring, (picture, *corners) in zip(face, mapped, strict=True):
+            if picture is None:
+                assert corners == []
+                continue
+            assert city["appearance"]["textures"][picture]["image"].startswith("1-(136")
+            for vertex, corner in zip(ring, corners, strict=True):
+                x, _, z = city["vertices"][vertex]
+                found[x % 10_000, z] = at[corner]
+    return found
+
+
+def test_a_picture_lies_as_the_rules_say() -> None:
+    """Four metres by three, of a picture of two metres by one."""
+    feature = shown("a", 0.0)
+    assert corners_of(feature, "a") == {
+        (0, 0): [0, 0],
+        (4000, 0): [2, 0],
+        (4000, 3000): [2, 3],
+        (0, 3000): [0, 3],
+    }
+    looks = feature["appearance"]
+    assert looks["default-theme-texture"] == looks["default-theme-material"] == "rules"
+    assert [one["image"] for one in looks["textures"]] == ["1-(136, 136, 136).jpg"]
+    (geometry,) = feature["CityObjects"]["a"]["geometry"]
+    kinds = [
+        geometry["semantics"]["surfaces"][value]["type"]
+        for value in geometry["semantics"]["values"]
+    ]
+    names = [looks["materials"][row]["name"] for row in geometry["material"]["rules"]["values"]]
+    told = dict(zip(kinds, names, strict=True))
+    assert told == {"WallSurface": "#402020", "RoofSurface": "#402010"}  # of afar: half, a quarter
+
+
+def test_neighbours_share_pictures_and_keep_their_own_corners(tmp_path: Path) -> None:
+    piece = tmp_path / "piece.jsonl"
+    piece.write_text("".join(json.dumps(shown(n, x)) + "\n" for n, x in (("a", 0), ("b", 10))))
+    write_joined(tmp_path / "city.json", header("t", None, (0.0, 0.0, 0.0)), [piece])
+    city = json.loads((tmp_path / "city.json").read_text())
+    assert len(city["appearance"]["textures"]) == 1
+    assert len(city["appearance"]["materials"]) == 2
+    assert corners_of(city, "a") == corners_of(city, "b") == corners_of(shown("a", 0), "a")
+
+
+def test_a_line_without_pictures_names_no_textures() -> None:
+    feature = line(BOX)
+    assert "textures" not in feature["appearance"]
+    assert len(feature["appearance"]["materials"]) == 1

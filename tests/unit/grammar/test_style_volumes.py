@@ -36,7 +36,7 @@ def volumes_of(style: str, rings: list[Ring], given: dict[str, Attribute]) -> li
     ]
     found = []
     for row in range(SEEDS):
-        body, _, vertices = derived[0].city(
+        body, _, vertices, _ = derived[0].city(
             row, (0.0, 0.0, 0.0), CLASSES, KINDS, volumes=derived[1]
         )
         points = np.array(json.loads(vertices)) * MM

@@ -18,7 +18,7 @@ from veduta.grammar.surfaces.catalogue import (
     sizes_m,
     texture_names,
 )
-from veduta.grammar.textures import Textures, mean_light
+from veduta.grammar.textures import WHITE, Textures, mean_light
 from veduta.grammar.tile_pictures import picture_files
 from veduta.run.errors import InputError
 
@@ -42,7 +42,7 @@ def test_a_texture_is_what_the_catalogue_says(name: str) -> None:
     assert picture.shape[1] / width == pytest.approx(picture.shape[0] / height, rel=3e-3)
     light = mean_light(Textures({})[name].pixels)
     np.testing.assert_allclose(light, mean_colour(name), atol=0.008)
-    [content] = picture_files({name: name}, [name]).values()
+    [content] = picture_files({name: name}, [(name, WHITE)]).values()
     assert len(content) < 180_000
 
 

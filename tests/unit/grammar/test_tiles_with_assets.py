@@ -126,7 +126,7 @@ def test_windows_are_instances_and_have_the_colours_of_their_slots(
 
 def test_cityjson_has_the_faces_of_assets(made: tuple[Part, _core.DerivedLots]) -> None:
     part, lots = made
-    body, installations, vertices = lots.city(0, PLACE, CLASSES, KINDS)
+    body, installations, vertices, _ = lots.city(0, PLACE, CLASSES, KINDS)
     points = np.array(json.loads(vertices)) * 0.001 - PLACE
     geometry = json.loads(body)
     kinds = [surface["type"] for surface in geometry["semantics"]["surfaces"]]
