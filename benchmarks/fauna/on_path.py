@@ -53,8 +53,8 @@ def main() -> None:
     notes = [
         "Slopes: 8 lengths of a sine as wide as the animal is long, on planes and bumps; all"
         " standing feet at all keys. A foot slides by its distance from its spot, and sinks by how"
-        " far its sole is under the ground, swinging or standing. The middle is that of the"
-        " places at which legs hang.",
+        " far its sole is under the ground, swinging or standing. The middle is that of"
+        " the spine between the legs as it lies in the clip, against the nearest spot of the path.",
         "Million: path through three points of 1,000 x 1,000 heights, and 300 keys of motion with"
         " planted feet, after loading. The quadruped is the walking cat, the lizard a drawn one.",
     ]

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 from walking import walking_limbed
 
 from veduta.fauna.build.limbed import build_limbed
 from veduta.fauna.build.walker import limbed_walker
-from veduta.fauna.motion.carried import composed
+from veduta.fauna.motion import transfer
+from veduta.fauna.motion.carried import Joints, composed
 from veduta.fauna.motion.figure import Floats
 from veduta.fauna.motion.reach import reached_in_space
 from veduta.fauna.motion.transfer import TransferLooks, Walked, Walker, walked
@@ -68,6 +71,44 @@ def test_standing_feet_neither_slide_nor_sink(walker: Walker, name: str) -> None
         assert under.max() < 0.02
     assert done.slides_m < 0.01 * walker.stride_m
     assert done.aside_m < 0.02 * walker.length_m
+
+
+def _middles(walker: Walker, done: Walked) -> Floats:
+    """(t, 2) the middle of the trunk between hips and shoulders, from the clip alone."""
+    skin = walker.skin
+    turns = Rotation.from_quat(done.clip.rotations_xyzw.reshape(-1, 4)).as_matrix()
+    turns = turns.reshape(*done.clip.rotations_xyzw.shape[:2], 3, 3)
+    joints = composed(skin, turns, done.clip.translations_m)
+    hips, shoulders = (skin.names.index(name) for name in ("body_0", "body_1"))
+    assert skin.parent[shoulders] == hips
+    return np.asarray(0.5 * (joints.places[:, hips, :2] + joints.places[:, shoulders, :2]))
+
+
+def test_how_far_the_body_is_from_its_path_is_seen_by_the_clip_alone(walker: Walker) -> None:
+    for name, ground in GROUNDS.items():
+        done = _walk(walker, ground)
+        x = np.linspace(-2.0, 8.0, 40_000)
+        track = np.column_stack([x, 0.7 * np.sin(0.8 * x)])
+        away, _ = cKDTree(track).query(_middles(walker, done))
+        assert away.max() < 0.02 * walker.length_m, name
+        assert done.aside_m == pytest.approx(away.max(), abs=0.01 * walker.length_m)
+
+
+def test_a_body_that_lies_beside_its_path_is_told(
+    walker: Walker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    laid = transfer._laid
+
+    def shifted(*given: Any) -> Joints:
+        found = laid(*given)
+        return Joints(found.turns, found.places + np.array([0.0, 0.1, 0.0]))
+
+    monkeypatch.setattr(transfer, "_laid", shifted)
+    x = np.linspace(0.0, 6.0, 60)
+    path = np.column_stack([x, 0.0 * x, 0.0 * x])
+    flat = GROUNDS["flat"]
+    done = walked(walker, path, flat, closed=False, looks=TransferLooks())
+    assert done.aside_m == pytest.approx(0.1, abs=1e-3)
 
 
 def test_bones_keep_their_lengths_and_the_animal_stands_at_both_ends(walker: Walker) -> None:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
@@ -84,7 +85,8 @@ class Walker:
 @dataclass(frozen=True, eq=False)
 class Walked:
     """clip: in the frame of the path. slides_m: how far a standing foot is from its place at worst.
-    sinks_m: how far one is under the ground at worst. aside_m: the body's middle from the path.
+    sinks_m: how far one is under the ground at worst. aside_m: the middle of its body
+    from the path at worst, seen from above.
     """
 
     clip: Clip
@@ -323,12 +325,35 @@ def _planted(
 
 
 def _aside(walker: Walker, laid: Joints, pieces: tuple[Piece, ...]) -> float:
-    """How far the body's middle is from the path at worst, on the flat."""
+    """How far the body's middle is from its way at worst, seen from above: by where the joints came
+    to lie, and the nearest spot of the curve. While it turns on the spot there is none.
+    """
     cuts = np.cumsum([len(piece.times) for piece in pieces])[:-1]
-    away = np.concatenate(
-        [
-            _off_the_path(walker, places, piece.line, piece.way)
-            for places, piece in zip(np.split(laid.places, cuts), pieces, strict=True)
-        ]
+    worst = 0.0
+    for piece, centre in zip(pieces, np.split(_middle(walker, laid), cuts), strict=True):
+        if isinstance(piece.line, Curve) and len(centre):
+            line = shapely.LineString(piece.line.at(_reaching(piece.line, walker.length_m)))
+            worst = max(worst, float(shapely.distance(shapely.points(centre), line).max()))
+    return worst
+
+
+def _reaching(curve: Curve, length_m: float) -> Floats:
+    """Arcs of a curve's points; of an open one, straight on by a body's length at its ends."""
+    if curve.closed:
+        return curve.arcs
+    return np.concatenate([[-length_m], curve.arcs, [curve.length_m + length_m]])
+
+
+def _middle(walker: Walker, laid: Joints) -> Floats:
+    """(t, 2) the middle of the spine between the legs; of a body without legs, of all of it."""
+    ahead = walker.skin.rest[:, 0, 3]
+    rows = np.flatnonzero(walker.spine)
+    rows = rows[np.argsort(ahead[rows], kind="stable")]
+    ends = ahead[[leg.joints[0] for leg in walker.legs] or rows]
+    at = 0.5 * float(ends.min() + ends.max())
+    after = int(np.clip(np.searchsorted(ahead[rows], at), 1, len(rows) - 1))
+    first, second = rows[after - 1], rows[after]
+    share = (at - ahead[first]) / max(float(ahead[second] - ahead[first]), 1e-9)
+    return np.asarray(
+        (1.0 - share) * laid.places[:, first, :2] + share * laid.places[:, second, :2]
     )
-    return float(np.linalg.norm(away, axis=1).max())
