@@ -13,7 +13,7 @@ use crate::tiles::Textures;
 /// The name of the only theme.
 pub(crate) const THEME: &str = "rules";
 /// Tints are told apart in steps of this (of 255): what differs less is one picture.
-const TINT_STEP: f32 = 17.0;
+const TINT_STEP: f32 = 8.5;
 /// Texture coordinates are told apart by 1e-4 of the picture.
 const UV_STEPS: f64 = 1e4;
 
@@ -199,7 +199,7 @@ mod tests {
             text,
             r#","material":{"rules":{"values":[0,0,0,1]}},"texture":{"rules":{"values":[[[0,0,1,2]],[[0,0,1,2]],[[1,0,1,2]],[[null]]]}}"#
         );
-        assert_eq!(looks.textures(), [(7, [255; 3]), (7, [136, 255, 255])]);
+        assert_eq!(looks.textures(), [(7, [255; 3]), (7, [127, 255, 255])]);
         assert_eq!(looks.corners_text(), "[[0,0],[2.5,0],[2.5,1]]");
         assert!(looks.materials_text().contains(r#""transparency":0.498"#));
     }

@@ -27,13 +27,28 @@ class SurfaceTold:
 
 
 @dataclass(frozen=True)
+class FaceLook:
+    """What a file says of the look of a polygon.
+
+    colour: sRGB, 0 to 1, None where it has a picture alone. picture: its path as the file writes
+    it. corners: of each ring (n, 2) where its corners lie on the picture, from the lower left, in
+    widths and heights of it; empty without a picture.
+    """
+
+    colour: Colour | None
+    opacity: float = 1.0
+    picture: str | None = None
+    corners: tuple[NDArray[np.float64], ...] = ()
+
+
+@dataclass(frozen=True)
 class BuildingFaces:
     """The polygons of one building in the coordinates of its file.
 
     classes: one for each polygon, None where the file does not say it. solid: whether the file
     says that the polygons close a body. surfaces: what the file says of the semantic surfaces, and
     surface: which of them each polygon is of, -1 where it does not say it; empty where formats have
-    no such surfaces.
+    no such surfaces. looks: of each polygon, None where it has none; empty where formats have none.
     """
 
     id: str
@@ -44,6 +59,7 @@ class BuildingFaces:
     solid: bool = False
     surfaces: tuple[SurfaceTold, ...] = ()
     surface: tuple[int, ...] = ()
+    looks: tuple[FaceLook | None, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -20,9 +20,11 @@ from veduta.formats.building_faces import (
     MOST_CORNERS,
     BuildingFaces,
     CityFile,
+    FaceLook,
     Rings,
     SurfaceTold,
 )
+from veduta.formats.cityjson_looks import Appearance
 from veduta.place.semantics import SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -65,6 +67,7 @@ def read_cityjson(path: Path, *, installations: bool = False) -> CityFile:
     corners = 0
     for document in _with_first(head, documents):
         points = _vertices(path, head, document)
+        appearance = Appearance(document.get("appearance"))
         objects = document.get("CityObjects", {})
         if not isinstance(objects, dict):
             raise InputError(path, "has no CityObjects", _SAVE)
@@ -75,7 +78,9 @@ def read_cityjson(path: Path, *, installations: bool = False) -> CityFile:
             if not one.get("geometry") and name not in parts:
                 continue
             try:
-                building = _building(str(name)[:200], one, points, parts.get(name, ()), left)
+                building = _building(
+                    str(name)[:200], one, (points, appearance), parts.get(name, ()), left
+                )
             except _Fault as fault:
                 left.append((str(name)[:200], str(fault)))
                 continue
@@ -161,12 +166,13 @@ def _installations(objects: dict[str, Any]) -> dict[str, list[tuple[str, dict[st
 def _building(
     name: str,
     one: dict[str, Any],
-    points: NDArray[np.float64],
+    read: tuple[NDArray[np.float64], Appearance],
     installations: Sequence[tuple[str, dict[str, Any]]],
     left: list[tuple[str, str]],
 ) -> BuildingFaces:
     """left: is told which installations cannot be used; the building stands without them."""
     polygons: list[Rings] = []
+    looks: list[FaceLook | None] = []
     surfaces: list[SurfaceTold] = []
     surface: list[int] = []
     lod, solid = "", False
@@ -177,19 +183,19 @@ def _building(
         semantics = geometry.get("semantics")
         values = semantics.get("values") if isinstance(semantics, dict) else None
         surfaces = _surfaces(semantics)
-        for face, value in _faces(geometry.get("boundaries"), values, depth):
-            polygons.append(_rings(face, points))
+        for rings, look, value in _seen(geometry, values, *read):
+            polygons.append(rings)
+            looks.append(look)
             known = isinstance(value, int) and 0 <= value < len(surfaces)
             surface.append(value if known else -1)
     for own_name, part in installations:
         try:
-            geometry = _finest(part["geometry"])
-            faces = _faces(geometry.get("boundaries"), None, _DEPTH[geometry["type"]])
-            found = [_rings(face, points) for face, _ in faces]
+            found = list(_seen(_finest(part["geometry"]), None, *read))
         except _Fault as fault:
             left.append((own_name, f"an installation of {name} that {fault}"))
             continue
-        polygons += found
+        polygons += [rings for rings, _, _ in found]
+        looks += [look for _, look, _ in found]
         surface += [len(surfaces)] * len(found)
         surfaces.append(_told(part.get("attributes"), None))
     if not polygons:
@@ -201,8 +207,28 @@ def _building(
         for key, value in (given.items() if isinstance(given, dict) else ())
         if isinstance(value, str | int | float) and not isinstance(value, bool)
     }
-    own = tuple(surfaces), tuple(surface)
+    own = tuple(surfaces), tuple(surface), tuple(looks) if any(looks) else ()
     return BuildingFaces(name, tuple(polygons), tuple(classes), attributes, lod, solid, *own)
+
+
+def _seen(
+    geometry: dict[str, Any], values: Any, points: NDArray[np.float64], appearance: Appearance
+) -> Iterator[tuple[Rings, FaceLook | None, Any]]:
+    """The faces of a geometry with their looks and semantic values."""
+    boundaries, depth = geometry.get("boundaries"), _DEPTH[geometry["type"]]
+    materials = appearance.values(geometry, "material")
+    textures = appearance.values(geometry, "texture")
+    each = zip(
+        _faces(boundaries, values, depth),
+        _faces(boundaries, materials, depth),
+        _faces(boundaries, textures, depth),
+        strict=True,
+    )
+    for (face, value), (_, material), (_, texture) in each:
+        rings = _rings(face, points)
+        sizes = tuple(len(ring) for ring in rings)
+        of_all = materials if isinstance(materials, int) else material
+        yield rings, appearance.look(of_all, texture, sizes), value
 
 
 def _finest(geometries: Any) -> dict[str, Any]:

@@ -73,15 +73,14 @@ ROWS: tuple[tuple[str, str, str, str, tuple[str, ...]], ...] = (
 
 
 READERS = {
-    ".glb": "read_glb_place",
-    ".obj": "read_obj_place",
-    ".stl": "read_trimesh_place",
-    ".ply": "read_trimesh_place",
-    ".gml": "read_city_place",
-    ".3.gml": "read_city_place",
-    ".city.json": "read_city_place",
+    ".glb": "place_read:read_glb_place",
+    ".obj": "place_read:read_obj_place",
+    ".stl": "place_read:read_trimesh_place",
+    ".ply": "place_read:read_trimesh_place",
+    ".gml": "city_place:read_city_place",
+    ".3.gml": "city_place:read_city_place",
+    ".city.json": "city_place:read_city_place",
 }
-"""Of `formats.place_read`."""
 
 
 def _late(target: str) -> Write:
@@ -93,12 +92,13 @@ def _late(target: str) -> Write:
     return write
 
 
-def _late_read(name: str | None) -> Callable[[Path], Place] | None:
-    if name is None:
+def _late_read(target: str | None) -> Callable[[Path], Place] | None:
+    if target is None:
         return None
+    module, name = target.split(":")
 
     def read(path: Path) -> Place:
-        found: Place = getattr(importlib.import_module("veduta.formats.place_read"), name)(path)
+        found: Place = getattr(importlib.import_module(f"veduta.formats.{module}"), name)(path)
         return found
 
     return read

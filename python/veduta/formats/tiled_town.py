@@ -1,7 +1,7 @@
 """A town that lies in tiles, as a place of buildings: from the city model that was written with it.
 
 Tiles hold many buildings each, compressed, for the eye. What a building is says the CityJSON beside
-them: its surfaces and their classes, without pictures.
+them: its surfaces, their classes, colours and pictures.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from veduta.formats.city_place import read_city_place
 from veduta.formats.cityjson_read import SEQUENCES
-from veduta.formats.place_read import read_city_place
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 

@@ -197,7 +197,7 @@ def corners_of(city: dict[str, Any], name: str) -> dict[tuple[float, ...], list[
             if picture is None:
                 assert corners == []
                 continue
-            assert city["appearance"]["textures"][picture]["image"].startswith("1-(136")
+            assert city["appearance"]["textures"][picture]["image"].startswith("1-(127")
             for vertex, corner in zip(ring, corners, strict=True):
                 x, _, z = city["vertices"][vertex]
                 found[x % 10_000, z] = at[corner]
@@ -215,7 +215,7 @@ def test_a_picture_lies_as_the_rules_say() -> None:
     }
     looks = feature["appearance"]
     assert looks["default-theme-texture"] == looks["default-theme-material"] == "rules"
-    assert [one["image"] for one in looks["textures"]] == ["1-(136, 136, 136).jpg"]
+    assert [one["image"] for one in looks["textures"]] == ["1-(127, 127, 127).jpg"]
     (geometry,) = feature["CityObjects"]["a"]["geometry"]
     kinds = [
         geometry["semantics"]["surfaces"][value]["type"]
