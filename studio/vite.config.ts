@@ -31,9 +31,33 @@ function contentSecurityPolicy(): Plugin {
   };
 }
 
+/** What the page needs at once, though it asks for it only when it runs. */
+const EARLY = new Set(["three", "drawing"]);
+
+/** The page names all of its program, so that a browser does not learn of one piece from another. */
+function earlyPieces(): Plugin {
+  return {
+    name: "veduta-early-pieces",
+    apply: "build",
+    transformIndexHtml: {
+      order: "post",
+      handler: (_, { bundle, filename }) =>
+        filename.endsWith("index.html")
+          ? Object.values(bundle ?? {})
+              .filter((piece) => piece.type === "chunk" && EARLY.has(piece.name))
+              .map(({ fileName }) => ({
+                tag: "link",
+                attrs: { rel: "modulepreload", crossorigin: true, href: `./${fileName}` },
+                injectTo: "head",
+              }))
+          : [],
+    },
+  };
+}
+
 export default defineConfig({
   base: "./",
-  plugins: [contentSecurityPolicy(), notices()],
+  plugins: [contentSecurityPolicy(), earlyPieces(), notices()],
   worker: { format: "es" },
   build: {
     outDir: "../python/veduta/studio/static",

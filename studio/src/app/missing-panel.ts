@@ -68,17 +68,23 @@ export class MissingPanel extends LitElement {
     </div>`;
   }
 
+  /** What is asked for again, and what is not, each under its own words. */
   #missing(missing: readonly Missing[]): TemplateResult {
-    const more = missing.length - NAMED;
-    const isAsked = missing.some(({ fault }) => fault instanceof Absent);
-    const words = isAsked ? "not come: asked for again." : "not come whole: left out.";
-    return html`<p>${missing.length === 1 ? "One file has" : `${missing.length} files have`} ${words}</p>
-      <ul>
-        ${missing.slice(0, NAMED).map(({ file, fault }) => html`<li>${file}: ${fault.fault}</li>`)}
-        ${more > 0 ? html`<li>and ${more} more</li>` : nothing}
-      </ul>
-      ${isAsked ? html`<button @click=${() => this.dispatchEvent(new CustomEvent("ask-now"))}>Ask now</button>` : nothing}`;
+    const asked = missing.filter(({ fault }) => fault instanceof Absent);
+    const broken = missing.filter(({ fault }) => !(fault instanceof Absent));
+    return html`${listed(asked, "not come: asked for again.")}${listed(broken, "not come whole: left out.")}
+      ${asked.length > 0 ? html`<button @click=${() => this.dispatchEvent(new CustomEvent("ask-now"))}>Ask now</button>` : nothing}`;
   }
+}
+
+function listed(missing: readonly Missing[], words: string): TemplateResult | typeof nothing {
+  if (missing.length === 0) return nothing;
+  const more = missing.length - NAMED;
+  return html`<p>${missing.length === 1 ? "One file has" : `${missing.length} files have`} ${words}</p>
+    <ul>
+      ${missing.slice(0, NAMED).map(({ file, fault }) => html`<li>${file}: ${fault.fault}</li>`)}
+      ${more > 0 ? html`<li>and ${more} more</li>` : nothing}
+    </ul>`;
 }
 
 customElements.define("veduta-missing", MissingPanel);

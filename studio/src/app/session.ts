@@ -56,25 +56,12 @@ export async function openPlace(
   const begin = performance.now();
   checkWebGL();
   const address = placeAddress(page);
-  // three.js is most of the program; it arrives while the place does.
-  const drawing = Promise.all([
-    import("../three/clouds.ts"),
-    import("../three/frusta.ts"),
-    import("../three/grower.ts"),
-    import("../three/houses.ts"),
-    import("../three/load.ts"),
-    import("../three/morph-show.ts"),
-    import("../three/part-slot.ts"),
-    import("../three/shared-images.ts"),
-    import("../three/photo-textures.ts"),
-    import("../three/recorded.ts"),
-    import("../three/town.ts"),
-    import("../three/viewer.ts"),
-  ]);
+  // The index of the place is asked for first: the program's pieces would stand before it in the browser's queue.
+  const text = fetchText(address, "place.json");
+  const drawing = import("./drawing.ts");
   onProgress(0, "place.json");
-  // The index of the place and the first models need none of it.
-  const place = readPlace(await fetchText(address, "place.json"), "place.json");
-  const [{ loadClouds }, { Frusta }, { Grower }, { loadHouse }, { loadPart }, { MorphShow }, { PartSlot, stillOf }, { SharedImages }, { bitmapOf, PhotoTextures }, { Recorded }, { Town }, { Viewer }] =
+  const place = readPlace(await text, "place.json");
+  const { CloudArrivals, Frusta, Grower, loadHouse, loadPart, MorphShow, PartSlot, stillOf, SharedImages, bitmapOf, PhotoTextures, bringingFrom, Recorded, Town, Viewer } =
     await drawing;
   const { tileset } = place;
   const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
@@ -114,10 +101,12 @@ export async function openPlace(
   await (isFew ? arrivals.tried() : arrivals.first());
   const [firstMissing] = arrivals.missing;
   if (firstMissing !== undefined && !parts.some(({ isThere }) => isThere)) throw firstMissing.fault;
-  const noClouds: Missing[] = [];
-  const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file), (one) => noClouds.push(one));
-  const [firstCloud] = noClouds;
-  if (firstCloud !== undefined && clouds.children.length + place.parts.length === 0 && town === null) throw firstCloud.fault;
+  const clouds = new CloudArrivals(place.clouds, address);
+  // Points are waited for where there is nothing else to see.
+  const isCloudAlone = place.parts.length + place.walks.length === 0 && town === null;
+  if (isCloudAlone) await clouds.bring((share, file) => onProgress(0.97 * share, file));
+  const [firstCloud] = clouds.missing;
+  if (firstCloud !== undefined && clouds.group.children.length === 0) throw firstCloud.fault;
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
@@ -128,12 +117,21 @@ export async function openPlace(
   const recorded = new Recorded(
     parts,
     async (part) => (await loadPart(part, address, images, () => undefined)).group.children,
-    () => viewer?.invalidate(),
-    onFault,
+    () => {
+      viewer?.invalidate();
+      onShown();
+    },
+    bringingFrom(place.start.eye),
   );
-  viewer = new Viewer(canvas, place, { parts, recorded, town, clouds, frusta, textures, houses, budget, morphs }, store);
+  viewer = new Viewer(canvas, place, { parts, recorded, town, clouds: clouds.group, frusta, textures, houses, budget, morphs }, store);
   await viewer.prepare();
   onProgress(1, "");
+  if (!isCloudAlone) {
+    void clouds.bring(() => undefined).then(() => {
+      viewer.takeClouds();
+      onShown();
+    });
+  }
   return {
     place,
     get tables() {
@@ -148,10 +146,12 @@ export async function openPlace(
       return houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0));
     },
     get onTheWay() {
-      return { waiting: arrivals.waiting, missing: [...(town?.missing ?? arrivals.missing), ...noClouds] };
+      const missing = [...(town?.missing ?? arrivals.missing), ...recorded.missing, ...clouds.missing];
+      return { waiting: arrivals.waiting + recorded.waiting + clouds.waiting, missing };
     },
     askNow: () => {
       arrivals.askNow();
+      recorded.askNow();
       town?.askNow();
     },
     records: recordsOf(place, town !== null),

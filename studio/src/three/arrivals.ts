@@ -1,5 +1,5 @@
 /** The parts of a place on their way: several at once, the nearest first; what fails is asked for again. */
-import { Asking } from "../core/asking.ts";
+import { Asking, PAGE, type Surroundings } from "../core/asking.ts";
 import { Absent, type Fault, faultOf } from "../core/fault.ts";
 import { worldPoint } from "../core/frames.ts";
 import type { Part } from "../core/place.ts";
@@ -26,13 +26,13 @@ export class Arrivals {
   readonly #waiters: { readonly isDone: () => boolean; readonly tell: () => void }[] = [];
 
   /** `fetch` brings a part; `onChange` is called when one has come, or has not. */
-  constructor(parts: readonly Part[], eye: Vec3, fetch: (index: number) => Promise<void>, onChange: () => void) {
+  constructor(parts: readonly Part[], eye: Vec3, fetch: (index: number) => Promise<void>, onChange: () => void, around: Surroundings = PAGE) {
     this.#parts = parts;
     this.#fetch = fetch;
     this.#onChange = onChange;
     this.#queue = inOrder(parts, eye);
     this.#untried = parts.length;
-    this.#asking = new Asking(() => this.#askAgain());
+    this.#asking = new Asking(() => this.#askAgain(), around);
   }
 
   start(): void {

@@ -11,37 +11,56 @@ import { fetchBytes } from "./fetch.ts";
 const MAGIC = "ply";
 const REMEDY = "Write the place again, for example with `veduta photos`.";
 
-/** A cloud that does not come, or is broken, is left out and told. */
-export async function loadClouds(
-  clouds: readonly Cloud[],
-  manifest: URL,
-  onProgress: (share: number, file: string) => void,
-  onMissing: (missing: Missing) => void,
-): Promise<Group> {
-  const group = new Group();
-  for (const [index, cloud] of clouds.entries()) {
-    const read = async (): Promise<BufferGeometry> => {
-      const bytes = await fetchBytes(fileAddress(cloud.file, manifest), cloud.file, (got, total) => {
-        onProgress((index + (total === null ? 0.5 : got / total)) / clouds.length, cloud.file);
-      });
-      return readPoints(bytes, cloud);
-    };
-    const geometry = await read().catch((error: unknown) => {
-      const { fault, remedy } = faultOf(error);
-      onMissing({ file: cloud.file, fault: new Fault(cloud.file, fault, remedy) });
-      return null;
-    });
-    if (geometry === null) continue;
-    const points = new Points(geometry, makeMaterial());
-    // The file is z-up like the place, so its own axes turn with it.
-    points.rotation.x = -Math.PI / 2;
-    const placed = new Group();
-    placed.matrix.fromArray(drawnFromModel(cloud.worldFromPoints));
-    placed.matrixAutoUpdate = false;
-    placed.userData.layer = cloud.layer;
-    placed.add(points);
-    group.add(placed);
+/** The clouds of a place on their way, one after the other. One that does not come, or is broken, is left out and told. */
+export class CloudArrivals {
+  /** Those that have come. */
+  readonly group = new Group();
+  readonly missing: Missing[] = [];
+  readonly #clouds: readonly Cloud[];
+  readonly #manifest: URL;
+  #tried = 0;
+
+  constructor(clouds: readonly Cloud[], manifest: URL) {
+    this.#clouds = clouds;
+    this.#manifest = manifest;
   }
+
+  /** How many have not come yet. */
+  get waiting(): number {
+    return this.#clouds.length - this.#tried;
+  }
+
+  /** To be called once; the result comes when each was asked for. */
+  async bring(onProgress: (share: number, file: string) => void): Promise<void> {
+    for (const [index, cloud] of this.#clouds.entries()) {
+      const onShare = (share: number): void => onProgress((index + share) / this.#clouds.length, cloud.file);
+      const geometry = await this.#read(cloud, onShare).catch((error: unknown) => {
+        const { fault, remedy } = faultOf(error);
+        this.missing.push({ file: cloud.file, fault: new Fault(cloud.file, fault, remedy) });
+        return null;
+      });
+      this.#tried = index + 1;
+      if (geometry !== null) this.group.add(placed(geometry, cloud));
+    }
+  }
+
+  async #read(cloud: Cloud, onShare: (share: number) => void): Promise<BufferGeometry> {
+    const bytes = await fetchBytes(fileAddress(cloud.file, this.#manifest), cloud.file, (got, total) => {
+      onShare(total === null ? 0.5 : got / total);
+    });
+    return readPoints(bytes, cloud);
+  }
+}
+
+function placed(geometry: BufferGeometry, { worldFromPoints, layer }: Cloud): Group {
+  const points = new Points(geometry, makeMaterial());
+  // The file is z-up like the place, so its own axes turn with it.
+  points.rotation.x = -Math.PI / 2;
+  const group = new Group();
+  group.matrix.fromArray(drawnFromModel(worldFromPoints));
+  group.matrixAutoUpdate = false;
+  group.userData.layer = layer;
+  group.add(points);
   return group;
 }
 

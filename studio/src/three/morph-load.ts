@@ -2,7 +2,7 @@
 import { BufferAttribute, BufferGeometry, LinearMipmapLinearFilter, Mesh, NoColorSpace, Texture, type WebGLRenderer } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Fault, faultOf } from "../core/fault.ts";
-import { type MorphWalk, nearTransitions } from "../core/morph-walk.ts";
+import { type MorphWalk, nearTransitions, placeOn } from "../core/morph-walk.ts";
 import { fileAddress } from "../core/place.ts";
 import { fetchBytes } from "./fetch.ts";
 
@@ -101,17 +101,13 @@ export class MorphFiles {
     for (const transition of near) if (!this.#ways.has(transition)) void this.#fetchWay(transition);
   }
 
-  /** Until what one sees at a place is there. */
+  /** Until the picture of the station next to a place is there; what leads to others comes after it. */
   async settle(at: number): Promise<void> {
+    const { transition, m } = placeOn(this.#walk, at);
+    const way = this.#walk.transitions[transition];
+    const station = (m < 0.5 ? way?.start : way?.end) ?? 0;
+    if (!this.#pictures.has(station)) await this.#fetchPicture(station);
     this.follow(at);
-    const first = nearTransitions(this.#walk, at)[0];
-    const way = first === undefined ? undefined : this.#walk.transitions[first];
-    const ends = way === undefined ? [0] : [way.start, way.end];
-    for (;;) {
-      const waits = ends.some((end) => this.#pictures.get(end) === null) || (way?.kind === "morph" && this.#ways.get(first ?? 0) === null);
-      if (!waits) return;
-      await new Promise((resolve) => setTimeout(resolve, 30));
-    }
   }
 
   dispose(): void {

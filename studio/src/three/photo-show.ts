@@ -58,8 +58,8 @@ export interface ShownPhoto {
 
 /** What the photos show. */
 export interface Subject {
-  /** Some of the place's points: three numbers each, world frame. */
-  readonly points: Float32Array;
+  /** Some of the place's points that have come: three numbers each, world frame. */
+  readonly points: () => Float32Array;
   /** How large the place is. */
   readonly size: number;
   /** How deep the middle of a photo is, where points do not tell. */
@@ -120,6 +120,16 @@ export class PhotoShow {
   /** The surfaces are others than they were: what hides what is to be found anew. */
   lookAgain(): void {
     for (const { projector } of this.#lamps) projector?.lookAgain();
+  }
+
+  /** More of the points has come: where photos hang is to be found anew. */
+  hangAnew(): void {
+    this.#proxies = null;
+    for (const lamp of this.#lamps) {
+      lamp.screen?.geometry.dispose();
+      lamp.screen?.material.dispose();
+      lamp.screen = null;
+    }
   }
 
   /**
@@ -229,7 +239,8 @@ export class PhotoShow {
   #places(): readonly Vantage[] {
     if (this.#proxies !== null) return this.#vantages;
     const { points, depthOf } = this.#subject;
-    const proxies = this.#shots.map((shot) => proxyOf(shot, points, depthOf));
+    const sampled = points();
+    const proxies = this.#shots.map((shot) => proxyOf(shot, sampled, depthOf));
     this.#proxies = proxies;
     this.#vantages = this.#shots.flatMap((shot, k) => {
       const proxy = proxies[k];

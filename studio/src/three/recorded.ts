@@ -1,7 +1,8 @@
 /** What was recorded, beside the model that was made of it: it is fetched when it is first wanted. */
 import { type Object3D, Vector2 } from "three";
-import { Fault } from "../core/fault.ts";
 import type { Part } from "../core/place.ts";
+import type { Vec3 } from "../core/vector.ts";
+import { Arrivals, type Missing } from "./arrivals.ts";
 import type { PartSlot } from "./part-slot.ts";
 
 /** What draws: its size is in CSS pixels, from the left and from below. */
@@ -11,37 +12,64 @@ export interface Wiped {
   setScissorTest(isOn: boolean): void;
 }
 
+/** The arrivals of parts: those of the page, or those of a test. */
+export type Bringing = (parts: readonly Part[], fetch: (index: number) => Promise<void>, onChange: () => void) => Arrivals;
+
+/** Those nearest to an eye first. */
+export function bringingFrom(eye: Vec3): Bringing {
+  return (parts, fetch, onChange) => new Arrivals(parts, eye, fetch, onChange);
+}
+
 export class Recorded {
-  readonly #slots: readonly PartSlot[];
+  /** Parts that have a record, and what has come of it. */
+  readonly #kept: readonly { readonly slot: PartSlot; readonly raw: string; nodes: readonly Object3D[] }[];
   readonly #load: (part: Part) => Promise<readonly Object3D[]>;
   readonly #onChange: () => void;
-  readonly #onFault: (fault: Fault) => void;
-  /** What has come of each part; null while it is on its way, or where it does not come. */
-  readonly #come = new Map<PartSlot, readonly Object3D[] | null>();
+  readonly #bringing: Bringing;
+  #arrivals: Arrivals | null = null;
 
+  /** `onChange` is called when a record has come, or has not. */
   constructor(
     slots: readonly PartSlot[],
     load: (part: Part) => Promise<readonly Object3D[]>,
     onChange: () => void,
-    onFault: (fault: Fault) => void,
+    bringing: Bringing,
   ) {
-    this.#slots = slots;
+    this.#kept = slots.flatMap((slot) => (slot.part.raw === null ? [] : [{ slot, raw: slot.part.raw, nodes: [] }]));
     this.#load = load;
     this.#onChange = onChange;
-    this.#onFault = onFault;
+    this.#bringing = bringing;
   }
 
-  /** Asks for what has not been asked for. */
+  /** Asks for what has not been asked for; what does not come is asked for again. */
   fetch(): void {
-    for (const slot of this.#slots) {
-      if (slot.part.raw !== null && !this.#come.has(slot)) void this.#fetch(slot, slot.part.raw);
-    }
+    const parts = this.#kept.map(({ slot, raw }) => ({ ...slot.part, model: raw }));
+    this.#arrivals ??= this.#bringing(parts, async (index) => await this.#bring(index), this.#onChange);
+    this.#arrivals.start();
   }
 
-  /** What was recorded, or the models; a part whose record is not there stays as it is. */
+  /** Records that are asked for and have not come yet. */
+  get waiting(): number {
+    return this.#arrivals?.waiting ?? 0;
+  }
+
+  get missing(): readonly Missing[] {
+    return this.#arrivals?.missing ?? [];
+  }
+
+  /** Does not wait for the end of a pause. */
+  askNow(): void {
+    this.#arrivals?.askNow();
+  }
+
+  dispose(): void {
+    this.#arrivals?.dispose();
+  }
+
+  /** What was recorded, or the models. What was made is never shown as recorded: where a record has not come there is nothing. */
   show(isRecord: boolean): void {
-    for (const [slot, nodes] of this.#come) {
-      if (nodes === null) continue;
+    if (this.#arrivals === null) return;
+    for (const { slot, nodes } of this.#kept) {
       for (const child of slot.group.children) child.visible = nodes.includes(child) === isRecord;
     }
   }
@@ -61,18 +89,14 @@ export class Recorded {
     renderer.setScissorTest(false);
   }
 
-  async #fetch(slot: PartSlot, model: string): Promise<void> {
-    this.#come.set(slot, null);
-    try {
-      const nodes = [...(await this.#load({ ...slot.part, model }))];
-      for (const node of nodes) node.visible = false;
-      slot.group.add(...nodes);
-      slot.group.updateMatrixWorld(true);
-      this.#come.set(slot, nodes);
-      this.#onChange();
-    } catch (error) {
-      if (!(error instanceof Fault)) throw error;
-      this.#onFault(error);
-    }
+  async #bring(index: number): Promise<void> {
+    const kept = this.#kept[index];
+    if (kept === undefined) return;
+    const { slot, raw } = kept;
+    const nodes = [...(await this.#load({ ...slot.part, model: raw }))];
+    for (const node of nodes) node.visible = false;
+    slot.group.add(...nodes);
+    slot.group.updateMatrixWorld(true);
+    kept.nodes = nodes;
   }
 }

@@ -152,6 +152,12 @@ export class Stage {
     this.showLayers(state);
   }
 
+  /** Clouds of points have come. */
+  takeClouds(state: StudioState): void {
+    this.photos?.hangAnew();
+    this.showLayers(state);
+  }
+
   /** Shows what the person wants to see, and hides the rest. */
   showLayers(state: StudioState): void {
     const { parts, clouds, frusta, recorded } = this.#content;
@@ -220,7 +226,7 @@ export class Stage {
   #showOf(place: Place, textures: PhotoTextures, onChange: () => void): PhotoShow {
     const { clouds, shots } = place;
     const most = Math.max(FEWEST_POINTS, Math.min(MOST_POINTS, MOST_PAIRS / shots.length));
-    const points = samplePoints(this.#content.clouds, most);
+    const points = (): Float32Array => samplePoints(this.#content.clouds, most);
     const [seen, all] = [this.solid.bounds, boundsOfShots(clouds, shots)].map(({ min, max }) => length(subtract(max, min)));
     const size = Math.max(seen ?? 0, all ?? 0);
     const depthOf = ({ eye, ahead }: Axes): number =>

@@ -143,6 +143,12 @@ export class Viewer {
     this.invalidate();
   }
 
+  /** Clouds of points have come. */
+  takeClouds(): void {
+    this.#stage.takeClouds(this.#store.value);
+    this.invalidate();
+  }
+
   /** The browser has given the graphics card back: everything goes there again. */
   restore(): void {
     this.#stage.showLayers(this.#store.value);

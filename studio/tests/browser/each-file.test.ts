@@ -84,6 +84,21 @@ describe.skipIf(MISSING !== null)("of a place that is served badly", () => {
     });
   }
 
+  it("shows the place before its points have come", async () => {
+    let letGo: () => void = () => undefined;
+    const held = new Promise<void>((resolve) => (letGo = resolve));
+    const { page, errors } = await opened("points.ply", "/", [], async (route) => {
+      await held;
+      await route.continue();
+    });
+    expect(await stateOf(page)).toBe("ready");
+    expect(await page.evaluate(() => window.veduta?.stats().loading)).toBe(1);
+    letGo();
+    await page.waitForFunction(() => window.veduta?.stats().loading === 0);
+    expect(errors).toEqual([]);
+    await page.context().close();
+  });
+
   it("takes what it lacks when the server is back", async () => {
     const other = await makeSite(7);
     const { page } = await open(browser, `${other.origin}/`);

@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { describe, expect } from "vitest";
 import { HOUSE } from "../fixture/house.mjs";
 import { MISSING } from "./chromium.ts";
-import { around, look, project, settled } from "./page.ts";
+import { around, look, open, project, settled } from "./page.ts";
 import { visits } from "./visits.ts";
 
 const PHOTO = '"baseColorTexture":{"index":0}';
@@ -48,5 +48,29 @@ describe.skipIf(MISSING !== null)("what was recorded", () => {
     await page.getByRole("switch", { name: "As recorded" }).click();
     for (const red of await redness()) expect(red).toBeLessThan(60);
     expect(await slider.count()).toBe(0);
+  });
+
+  it("is named where it is late or does not come, and the model does not stand for it", async ({ opened }) => {
+    const { page } = await open(opened.browser, `${opened.origin}/`);
+    await settled(page);
+    const wall = await project(page, [HOUSE.width / 2, 0, 3]);
+    const seen = async (): Promise<readonly number[]> => {
+      await settled(page);
+      return (await look(page, around(wall))).mean;
+    };
+    const model = await seen();
+    await page.route("**/raw.glb", (route) => route.abort());
+    await page.getByRole("switch", { name: "As recorded" }).click();
+    await page.getByRole("slider", { name: "as recorded" }).fill("1");
+    await page.waitForFunction(() => window.veduta?.stats().missing.length === 1);
+    expect(await page.locator("veduta-missing div").textContent()).toContain("raw.glb");
+    const behind = await seen();
+    expect(Math.hypot(...behind.map((value, k) => value - (model[k] ?? 0)))).toBeGreaterThan(20);
+    await page.unroute("**/raw.glb");
+    await page.getByRole("button", { name: "Ask now" }).click();
+    await page.waitForFunction(() => window.veduta?.stats().missing.length === 0);
+    const [red = 0, green = 0] = await seen();
+    expect(red - green).toBeGreaterThan(60);
+    await page.context().close();
   });
 });

@@ -1,15 +1,41 @@
-import { Object3D, type Vector2 } from "three";
+import { Matrix4, Object3D, type Vector2 } from "three";
 import { describe, expect, it } from "vitest";
-import { Fault } from "../../src/core/fault.ts";
+import type { Surroundings } from "../../src/core/asking.ts";
+import { Absent, Fault } from "../../src/core/fault.ts";
 import type { Part } from "../../src/core/place.ts";
+import { Arrivals } from "../../src/three/arrivals.ts";
 import type { PartSlot } from "../../src/three/part-slot.ts";
-import { Recorded, type Wiped } from "../../src/three/recorded.ts";
+import { type Bringing, Recorded, type Wiped } from "../../src/three/recorded.ts";
 
 function slot(raw: string | null): { slot: PartSlot; model: Object3D } {
   const [group, model] = [new Object3D(), new Object3D()];
   group.add(model);
-  return { slot: { part: { model: "a.glb", raw }, group } as unknown as PartSlot, model };
+  const worldFromPart = new Matrix4().toArray();
+  const part = { model: "a.glb", raw, worldFromPart, bounds: null, isGround: false, isBackdrop: false };
+  return { slot: { part, group } as unknown as PartSlot, model };
 }
+
+/** Pauses end when the test says so. */
+class Pauses implements Surroundings {
+  #then: (() => void) | null = null;
+  after(_pause_ms: number, then: () => void): () => void {
+    this.#then = then;
+    return () => (this.#then = null);
+  }
+  onNetwork(): () => void {
+    return () => undefined;
+  }
+  end(): void {
+    const then = this.#then;
+    this.#then = null;
+    then?.();
+  }
+}
+
+const during =
+  (pauses: Surroundings): Bringing =>
+  (parts, fetch, onChange) =>
+    new Arrivals(parts, [0, 0, 0], fetch, onChange, pauses);
 
 const later = async (): Promise<void> => await new Promise((resolve) => setTimeout(resolve));
 
@@ -38,12 +64,14 @@ describe("what was recorded", () => {
       return await Promise.resolve([record]);
     };
     let changes = 0;
-    const recorded = new Recorded([one], load, () => (changes += 1), () => undefined);
+    const recorded = new Recorded([one], load, () => (changes += 1), during(new Pauses()));
     recorded.show(false);
     expect(asked).toEqual([]);
     recorded.fetch();
     recorded.show(true);
-    expect(model.visible).toBe(true); // nothing is hidden before the other is there
+    expect([model.visible, recorded.waiting]).toEqual([false, 1]); // what was made is not shown as recorded
+    recorded.show(false);
+    expect(model.visible).toBe(true);
     await later();
     expect([asked, changes, model.visible, record.visible]).toEqual([["raw/a.glb"], 1, true, false]);
     recorded.fetch();
@@ -61,15 +89,55 @@ describe("what was recorded", () => {
     expect(drawn).toEqual([[true, [0, 0, 200, 100], false, true], [true, [0, 0, 200, 100], true, false]]);
   });
 
-  it("is not asked for where there is none, and a model stays where its record is missing", async () => {
-    const [without, lost] = [slot(null), slot("raw/b.glb")];
-    const faults: Fault[] = [];
-    const load = async (): Promise<Object3D[]> => await Promise.reject(new Fault("raw/b.glb", "not there", ""));
-    const recorded = new Recorded([without.slot, lost.slot], load, () => undefined, (fault) => faults.push(fault));
+  it("is not asked for where there is none: what has no record stays as it is", async () => {
+    const without = slot(null);
+    let asked = 0;
+    const load = async (): Promise<Object3D[]> => await Promise.resolve(Array.from({ length: (asked += 1) }, () => new Object3D()));
+    const recorded = new Recorded([without.slot], load, () => undefined, during(new Pauses()));
     recorded.fetch();
     await later();
     recorded.show(true);
-    expect(faults.map(({ subject }) => subject)).toEqual(["raw/b.glb"]);
-    expect([without.model.visible, lost.model.visible]).toEqual([true, true]);
+    expect([asked, recorded.waiting, without.model.visible]).toEqual([0, 0, true]);
+  });
+
+  it("is named while it does not come, not shown by the model, and asked for again", async () => {
+    const lost = slot("raw/b.glb");
+    const record = new Object3D();
+    let isThere = false;
+    const load = async (): Promise<Object3D[]> => {
+      if (!isThere) throw new Absent("raw/b.glb", "not there", "");
+      return await Promise.resolve([record]);
+    };
+    const pauses = new Pauses();
+    const recorded = new Recorded([lost.slot], load, () => undefined, during(pauses));
+    recorded.fetch();
+    await later();
+    recorded.show(true);
+    expect(recorded.missing.map(({ file }) => file)).toEqual(["raw/b.glb"]);
+    expect(lost.model.visible).toBe(false);
+    isThere = true;
+    pauses.end();
+    await later();
+    recorded.show(true);
+    expect([recorded.missing.length, record.visible, lost.model.visible]).toEqual([0, true, false]);
+    recorded.show(false);
+    expect([record.visible, lost.model.visible]).toEqual([false, true]);
+  });
+
+  it("is not asked for again where it is broken", async () => {
+    let asked = 0;
+    const load = async (): Promise<Object3D[]> => {
+      asked += 1;
+      return await Promise.reject(new Fault("raw/c.glb", "it is cut short", ""));
+    };
+    const pauses = new Pauses();
+    const recorded = new Recorded([slot("raw/c.glb").slot], load, () => undefined, during(pauses));
+    recorded.fetch();
+    await later();
+    pauses.end();
+    recorded.askNow();
+    recorded.fetch();
+    await later();
+    expect([asked, recorded.missing.length]).toEqual([1, 1]);
   });
 });
