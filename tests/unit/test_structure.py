@@ -29,6 +29,15 @@ def tracked(repository: Path) -> list[Path]:
 
 
 GENERATED = {Path("python/veduta/_core.pyi")}
+RESOLVERS = {
+    "python/veduta/run/names.py",
+    "python/veduta/run/outputs.py",  # folders that are made and taken away, never named
+    "python/veduta/grammar/layout.py",  # rewrites the file that a link stands for
+    "python/veduta/studio/export.py",  # places that Veduta wrote: their names are UTF-8
+    "python/veduta/studio/files.py",
+    "python/veduta/cli/licences.py",  # a file of the package
+}
+"""Files that follow links by the system's own names, and why."""
 
 
 def _sources(tracked: list[Path]) -> list[Path]:
@@ -87,3 +96,10 @@ def test_no_path_of_a_developers_machine(repository: Path, tracked: list[Path]) 
     paths = r"(?<![\w.])/(" + "|".join(["work", "root", r"home/\w+", r"Users/\w+"]) + r")/\w"
     texts = [name for name in tracked if name.suffix in TEXTS and name.name != "LICENSE"]
     assert _hits(repository, texts, paths) == []
+
+
+def test_paths_are_resolved_by_names_that_are_utf8(repository: Path, tracked: list[Path]) -> None:
+    """`real_path` gives a name that libraries and documents take, where the file's own is none."""
+    library = [name for name in tracked if name.is_relative_to("python/veduta")]
+    others = [name for name in library if name.suffix == ".py" and str(name) not in RESOLVERS]
+    assert _hits(repository, others, r"\.resolve\(\)|\brealpath\(|\breadlink\(") == []

@@ -19,6 +19,7 @@ from veduta.grammar.outline import Found, Outlines, name_of, outlines_of, plain_
 from veduta.grammar.rings import RingFault, closed_ring
 from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 MAGIC = b"SQLite format 3\0"
 BLOCK_ROWS = 1000
@@ -64,7 +65,7 @@ def package_outlines(path: Path, layer_name: str | None, found: Found) -> Outlin
 
 def _opened(path: Path) -> sqlite3.Connection:
     """The file, to be read only."""
-    base = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
+    base = sqlite3.connect(f"{real_path(path).as_uri()}?mode=ro&immutable=1", uri=True)
     base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_CELL_BYTES)
     base.execute("PRAGMA trusted_schema = OFF")
     _bound_time(base)

@@ -33,6 +33,7 @@ from veduta.grammar.roads import road_of
 from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
 from veduta.run.limits import limited
+from veduta.run.names import real_path
 
 SUFFIXES = (
     ".shp", ".fgb", ".kml", ".geojsonl", ".geojsons", ".ndjson", ".osm", ".pbf", ".tab", ".mif",
@@ -54,7 +55,7 @@ def vector_outlines(path: Path, layer: str | None, found: Found) -> Outlines:
         # GDAL leaves a file beside a GML file that it reads: it sees it in a folder of its own.
         with tempfile.TemporaryDirectory() as folder:
             seen = Path(folder, path.name)
-            seen.symlink_to(path.resolve())
+            seen.symlink_to(real_path(path))
             for outline in _of_layers(seen, layer, found):
                 yield replace(outline, subject=outline.subject.replace(str(seen), str(path), 1))
         return

@@ -128,7 +128,7 @@ export async function openPlace(
   onProgress(1, "");
   if (!isCloudAlone) {
     void clouds.bring(() => undefined).then(() => {
-      viewer.takeClouds();
+      viewer.take(null);
       onShown();
     });
   }

@@ -137,9 +137,14 @@ export class Stage {
     return this.household.doors === null ? DEFAULT_WALK.body : INDOOR_BODY;
   }
 
-  /** The model of a part has come. */
-  take(index: number, state: StudioState): void {
+  /** The model of a part has come; null: clouds of points have. */
+  take(index: number | null, state: StudioState): void {
     const { parts } = this.#content;
+    if (index === null) {
+      this.photos?.hangAnew();
+      this.showLayers(state);
+      return;
+    }
     const slot = parts[index];
     if (slot === undefined) return;
     this.appearance.take(index);
@@ -149,12 +154,6 @@ export class Stage {
     this.#backdrop = new Backdrop(parts);
     this.light(state.hour);
     this.appearance.tint(state);
-    this.showLayers(state);
-  }
-
-  /** Clouds of points have come. */
-  takeClouds(state: StudioState): void {
-    this.photos?.hangAnew();
     this.showLayers(state);
   }
 

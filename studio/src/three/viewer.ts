@@ -136,16 +136,10 @@ export class Viewer {
     return this.#stage.animals;
   }
 
-  /** The model of a part has come. */
-  take(part: number): void {
+  /** The model of a part has come; null: clouds of points have. */
+  take(part: number | null): void {
     this.#stage.take(part, this.#store.value);
     this.#walk.body = this.#stage.body;
-    this.invalidate();
-  }
-
-  /** Clouds of points have come. */
-  takeClouds(): void {
-    this.#stage.takeClouds(this.#store.value);
     this.invalidate();
   }
 

@@ -21,6 +21,7 @@ from veduta.plan.furnish.catalogue.entry import (
 )
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.names import real_path
 
 TEXTS = ("schema.sql", "objects.sql", "rooms.sql")
 MAX_BYTES = 50_000_000
@@ -79,7 +80,7 @@ def catalogue_of(path: Path | None) -> Catalogue:
         return own
     try:
         require_file(path, MAX_BYTES)
-        base = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
+        base = sqlite3.connect(f"{real_path(path).as_uri()}?mode=ro", uri=True)
     except (OSError, sqlite3.Error) as error:
         raise InputError(path, f"cannot be read ({error})", "Check its name.") from error
     try:
