@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,11 @@ from veduta.run.limits import Limits, limited
 _MOST_BYTES, _MOST_POINTS = 1 << 30, 20_000_000
 _MOST_PACKED = 1000
 """How much smaller LAZ may be than LAS: of scans it is a tenth."""
+_HEAD = struct.Struct("<25x B 68x H I I x")
+"""Minor version, size of the header, where points begin, number of records; up to the format."""
+_LATE = struct.Struct("<138x I")
+"""From there on to the number of records behind the points (1.4)."""
+_RECORD_BYTES, _LATE_RECORD_BYTES = 54, 60
 _LIMITS = Limits(memory_mb=3000, seconds=120)
 """The largest one takes half of this."""
 
@@ -28,6 +34,7 @@ def _points(path: Path) -> NDArray[np.float64]:
     import lazrs
 
     require_file(path, _MOST_BYTES)
+    _require_counts(path)
     try:
         with laspy.open(path) as file:
             _require_points(path, file.header.point_count, file.header.point_format.size)
@@ -37,6 +44,38 @@ def _points(path: Path) -> NDArray[np.float64]:
     if not len(points.points):
         raise InputError(path, "has no points", "Remove it.")
     return np.stack([points.x, points.y, points.z], axis=1).astype(np.float64)
+
+
+def _require_counts(path: Path) -> None:
+    """Refuse records and chunks that the file has no room for: laspy and lazrs make room for all.
+
+    Places of the LAS 1.4 R15 specification, tables 3 to 5; a chunk table begins with its version
+    and its count (LASzip 3.4), and an i64 before the first point says where it lies.
+    """
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        head = file.read(_HEAD.size)
+        if len(head) < _HEAD.size:
+            return  # laspy says what is missing
+        minor, header_size, points_at, records = _HEAD.unpack(head)
+        packed = head[104] & 0x80
+        room = min(points_at, size) - header_size
+        counts = [(records, _RECORD_BYTES, room)]
+        if minor >= 4:
+            late = file.read(_LATE.size)
+            if len(late) == _LATE.size:
+                counts.append((_LATE.unpack(late)[0], _LATE_RECORD_BYTES, size))
+        if packed and points_at + 8 <= size:
+            file.seek(points_at)
+            (table_at,) = struct.unpack("<q", file.read(8))
+            if 0 <= table_at <= size - 8:
+                file.seek(table_at)
+                _, chunks = struct.unpack("<II", file.read(8))
+                counts.append((chunks, 1, size))
+    for count, least, room in counts:
+        if count * least > max(room, 0):
+            fault = f"says that it has {count:,} records or chunks, more than it can hold"
+            raise InputError(path, fault, "Copy it again.")
 
 
 def _require_points(path: Path, count: int, size: int) -> None:
