@@ -17,7 +17,9 @@ from veduta.drive.build.bodies import Body, bodies_of
 from veduta.drive.build.body_file import BUILDINGS, write_bodies
 from veduta.drive.build.edited import with_document
 from veduta.drive.build.facade_files import FACADES, write_facade_list
+from veduta.drive.build.levels import FOLDER, TILESET, write_levels
 from veduta.drive.build.outcome import Outcome
+from veduta.drive.build.path_report import MARGIN_M, corrections_table, path_picture
 from veduta.drive.build.pictures import plan_picture
 from veduta.drive.build.place import PICTURES, add_houses, classified, drive_place
 from veduta.drive.build.times import times_table
@@ -31,6 +33,8 @@ from veduta.drive.read.segments import cut_segments, driven_line
 from veduta.drive.record import DriveRecord
 from veduta.drive.stages import layer_segments, texture_segments
 from veduta.formats.laz import write_laz_parts
+from veduta.formats.place_json import read_place, write_place
+from veduta.place.place import Place
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.names import given_name, real_path
@@ -40,8 +44,8 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "9"
-POINTS = "points.laz"
+VERSION = "10"
+POINTS, MANIFEST = "points.laz", "place.json"
 _JPEG_QUALITY = 90
 
 
@@ -111,7 +115,8 @@ def _make(
     with work.step("place"):
         told = {one.segment.id: one.segment for one in layered}
         known = [told.get(one.id, one) for one in segments]
-        _write(log, record, known, outcomes, line, road_m, options.seed, work)
+        _write(log, record, known, outcomes, line, road_m, options, work)
+    _tell_path(record, known, line, work)
     _tell(record, outcomes, line, work)
 
 
@@ -122,7 +127,7 @@ def _write(
     outcomes: Sequence[Outcome],
     line: NDArray[np.float64],
     road_m: float,
-    seed: int,
+    options: DriveOptions,
     work: Work,
 ) -> None:
     folder = work.folder
@@ -158,10 +163,12 @@ def _write(
     bodies = _bodies(record, outcomes, folder / BUILDINGS, work)
     add_houses(place, bodies, record)
     place.save(folder)
+    if options.mesh.tiles:
+        _write_tiles(record, outcomes, place, work)
     rows = [row for one in outcomes for _, _, row in one.planes]
     planes = write_facade_list(rows, folder / FACADES)
     files = [
-        ("place.json", "the place: `veduta view` shows it"),
+        (MANIFEST, "the place: `veduta view` shows it"),
         ("parts/", "a textured mesh of each segment (GLB)"),
         ("raw/", "the same as it was scanned"),
         (POINTS, "scan points: 2 ground, 6 building, 64 foreground, 65 glass, 66 filled"),
@@ -174,12 +181,24 @@ def _write(
         files.append((f"{FACADES}/", "each facade plane straight on, and where it stands"))
     if bodies:
         files.append((BUILDINGS, "the houses behind the facades, closed, with roofs (LoD2)"))
-    if write_vote([one.pair for one in outcomes if one.pair is not None], folder, seed):
+    if write_vote([one.pair for one in outcomes if one.pair is not None], folder, options.seed):
         files.append((PAGE, "segments as scanned and as made, side by side, for a vote"))
     work.measure("facade_planes", planes)
     files += [(f"{PICTURES}/", "the images")] if record.shots else []
     for name, meaning in files:
         work.file(name, meaning)
+
+
+def _write_tiles(
+    record: DriveRecord, outcomes: Sequence[Outcome], place: Place, work: Work
+) -> None:
+    """The segments in levels of detail, which the manifest names."""
+    lift_m = record.origin_m[2] - place.origin_m[2]
+    count = write_levels(outcomes, lift_m, work.folder)
+    path = work.folder / MANIFEST
+    write_place(read_place(path).model_copy(update={"tileset": f"{FOLDER}/{TILESET}"}), path)
+    work.measure("tiles", count)
+    work.file(f"{FOLDER}/", "the segments in levels of detail (3D Tiles): what the studio fetches")
 
 
 def _bodies(record: DriveRecord, outcomes: Sequence[Outcome], path: Path, work: Work) -> list[Body]:
@@ -216,6 +235,29 @@ def _corrections(record: DriveRecord) -> list[Correction]:
         x, y, z = (round(float(value), 3) for value in moved)
         found.append(Correction(sweep=sweep, moved_m=(x, y, z), reason=why))
     return found
+
+
+def _tell_path(
+    record: DriveRecord, segments: Sequence[DriveSegment], line: NDArray[np.float64], work: Work
+) -> None:
+    """The path over the surface model, and what was corrected of it."""
+    if record.overview is not None:
+        near = line[:, :2].min(axis=0) - MARGIN_M, line[:, :2].max(axis=0) + MARGIN_M
+        low, high = ((float(corner[0]), float(corner[1])) for corner in near)
+        times = np.array([sweep.time_s for sweep in record.sweeps])
+        places = record.path()
+        moved = [
+            (places[int(np.argmin(np.abs(times - time_s)))], by)
+            for time_s, by, _ in record.corrections
+        ]
+        work.picture(
+            "The path over the surface model",
+            "Path white, from the blue dot; segments beside it, on the side they look to: built"
+            " green, left as scanned orange, left out grey; corrections red, ten times as long",
+            path_picture(record.overview(low, high), line, segments, moved), wide=True,
+        )  # fmt: skip
+    if record.corrections:
+        work.table(corrections_table(_corrections(record)))
 
 
 def _tell(

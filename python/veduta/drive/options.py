@@ -46,6 +46,13 @@ class MeshOptions(Options):
         default=0.02,
         description="triangles are joined while 95 % of the surface stays within this (m); 0: none",
     )
+    tiles: bool = Field(
+        default=False,
+        description=(
+            "each segment in levels of detail, too (3D Tiles): the studio fetches what it needs of"
+            " them, and compares nothing with what was scanned"
+        ),
+    )
 
 
 class TextureOptions(Options):

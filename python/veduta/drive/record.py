@@ -78,6 +78,17 @@ class HeightGrid:
 
 
 @dataclass(frozen=True, eq=False)
+class Overview:
+    """A picture of the place from above. pixels: (rows from the south, columns, 3) uint8; cells of
+    cell_m, the outer corner of the first at low (m, world).
+    """
+
+    pixels: NDArray[np.uint8]
+    low: tuple[float, float]
+    cell_m: float
+
+
+@dataclass(frozen=True, eq=False)
 class DriveRecord:
     """All of a drive. World: z up, z = 0 at the road under the first sweep; metres.
 
@@ -102,6 +113,8 @@ class DriveRecord:
     doubts: tuple[str, ...] = ()
     roofs: Callable[[], HeightGrid | None] | None = None
     """Reads the surface model, where the record has one; None of one that is a photo."""
+    overview: Callable[[tuple[float, float], tuple[float, float]], Overview] | None = None
+    """Draws the surface model between two corners (m), where the record has one."""
     level: tuple[Sweep, ...] = ()
     """Scans of a second scanner that looks level: they see behind some of what hides walls."""
 

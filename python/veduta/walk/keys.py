@@ -18,6 +18,9 @@ from veduta.walk.read.check_rows import Rows, require_rows
 from veduta.walk.read.pairs import Rectifier, read_stereo
 from veduta.walk.rig import Image, PairFiles
 
+_KEPT = 2
+"""What is kept of a mosaic: the second way, with its front view."""
+
 
 @dataclass(frozen=True, eq=False)
 class KeyFigures:
@@ -55,7 +58,7 @@ def read_key(work: Work, views: tuple[PairFiles, ...], rectifier: Rectifier) -> 
     inputs = [file_digest(path) for one in views for path in (one.left, one.right)]
     try:
         arrays = work.kept_arrays(
-            f"mosaic-{views[0].key}", [*inputs, repr(rectifier.rig)],
+            f"mosaic-{views[0].key}", [*inputs, repr(rectifier.rig), _KEPT],
             lambda: arrays_of_mosaic(_mosaic(work, views, rectifier)),
         )  # fmt: skip
     except NotFoundError as error:
@@ -65,7 +68,7 @@ def read_key(work: Work, views: tuple[PairFiles, ...], rectifier: Rectifier) -> 
         turns[middle] = np.eye(3)
         return KeyModel(_model(work, views[middle], rectifier), KeyFigures(turns, middle))
     key = views[0].key
-    mosaic = mosaic_of(key, arrays, lambda n: _model(work, views[n], rectifier))
+    mosaic = mosaic_of(key, arrays)
     for view, found in zip(views, mosaic.turns.found, strict=True):
         if not found:
             work.doubt(f"{key}: view {view.view} has nothing in common with the others: left out")

@@ -130,7 +130,7 @@ class PanoramaRecord:
         self.path.tell(work)
         if self.alone and (note := self._left_out()) not in work.notes:
             work.note(note)
-        mosaic = mosaic_of(self.panoramas[self.chosen[number]][0], self._arrays(work, number), None)
+        mosaic = mosaic_of(self.panoramas[self.chosen[number]][0], self._arrays(work, number))
         turns = mosaic.turns
         return KeyModel(mosaic.model, KeyFigures(turns.front_from_view, turns.front, mosaic.gap))
 
@@ -140,7 +140,7 @@ class PanoramaRecord:
         inputs.append(f"{self.panoramas[self.chosen[number]]}")
         return work.kept_arrays(
             f"mosaic-{number:04d}", [*inputs, repr(self.rig)],
-            lambda: arrays_of_mosaic(self._mosaic(number)),
+            lambda: arrays_of_mosaic(self._mosaic(number), front=False),
         )  # fmt: skip
 
     def _mosaic(self, number: int) -> Mosaic:

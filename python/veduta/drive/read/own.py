@@ -22,6 +22,7 @@ from veduta.drive.read.shots import shots_of
 from veduta.drive.read.spacing import equally_spaced
 from veduta.drive.read.spool import SpooledScans
 from veduta.drive.read.surface_model import read_heights
+from veduta.drive.read.surface_picture import draw_surface
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
 from veduta.run.names import real_path
@@ -113,6 +114,7 @@ def read_own(
         log.name, sweeps, shots, log.path is not None, height_m, False, crs, origin, tuple(notes),
         path_from, corrections, doubts,
         None if log.surface is None else partial(read_heights, folder / log.surface.file, origin),
+        None if log.surface is None else partial(draw_surface, folder / log.surface.file, origin),
         level_sweeps,
     )  # fmt: skip
 

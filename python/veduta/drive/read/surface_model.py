@@ -101,7 +101,7 @@ def read_surface_model(
     One band of floats or 16-bit numbers is heights; three or four bands of bytes are a photo.
     """
     chosen = parameters or SurfaceParameters()
-    bands, low, cell_m, crs = limited(_read, path, path, _CUT, LIMITS)
+    bands, low, cell_m, crs = read_bands(path)
     if len(bands) == 1:
         return _of_heights(path, bands[0], low, cell_m, crs, scanner_m, chosen)
     edge = cv2.Canny(
@@ -115,11 +115,20 @@ def read_surface_model(
 
 def read_heights(path: Path, origin_m: tuple[float, float, float]) -> HeightGrid | None:
     """The surface itself in a frame about an origin; None of a photo. InputError as above."""
-    bands, low, cell_m, _ = limited(_read, path, path, _CUT, LIMITS)
+    bands, low, cell_m, _ = read_bands(path)
     if len(bands) != 1:
         return None
     heights = (bands[0] - origin_m[2]).astype(np.float32)
     return HeightGrid(heights, (low[0] - origin_m[0], low[1] - origin_m[1]), cell_m)
+
+
+def read_bands(
+    path: Path,
+) -> tuple[NDArray[np.float32], tuple[float, float], float, str | None]:
+    """(b, rows from the south, columns) of the file, as heights or colours, with NaN for no data;
+    its lower corner, the side of a cell (m), its CRS. InputError as above.
+    """
+    return limited(_read, path, path, _CUT, LIMITS)
 
 
 def _read(path: Path) -> tuple[NDArray[np.float32], tuple[float, float], float, str | None]:

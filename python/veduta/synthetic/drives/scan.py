@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from veduta.synthetic.drives import rays
 from veduta.synthetic.drives.street import Kind, Street
 
+_WAVE_M = 60.0
+"""Length of the waves in which the truck strays."""
+
 
 @dataclass(frozen=True)
 class TruckOptions:
@@ -59,7 +62,24 @@ def scan_street(street: Street, options: TruckOptions, seed: int) -> DriveScans:
     random = np.random.default_rng(seed)
     y = np.arange(0.0, street.length_m, options.spacing_m)
     y = y[random.uniform(size=len(y)) >= options.dropped]
-    wave = 2 * np.pi * y / 60.0
+    poses = poses_at(y, options)
+    angles = np.deg2rad(np.arange(-90.0, 90.0 + 1e-9, options.beam_step_deg))
+    ranges = np.zeros((len(y), len(angles)), dtype=np.float32)
+    kind = np.zeros(ranges.shape, dtype=np.uint8)
+    facade = np.full(ranges.shape, np.inf)
+    for first in range(0, len(y), 50):
+        rows = slice(first, first + 50)
+        near = street.between(float(y[rows][0]) - 3.0, float(y[rows][-1]) + 3.0)
+        beams = _upright(poses[rows], angles)
+        ranges[rows], kind[rows], facade[rows] = _cast(near, poses[rows], beams, options, random)
+    times = y / options.speed_m_s
+    level = _scan_level(street, poses, options, random) if options.level else None
+    return DriveScans(times, poses, angles, ranges, kind, facade, options, level)
+
+
+def poses_at(y: NDArray[np.float64], options: TruckOptions) -> NDArray[np.float64]:
+    """(s, 3, 4) world_from_vehicle of the truck at (s,) places along the street (m)."""
+    wave = 2 * np.pi * y / _WAVE_M
     yaw = options.sway_rad * np.sin(wave)
     poses = np.zeros((len(y), 3, 4))
     # x of the vehicle is forward (y of the world), y to its left (-x of the world).
@@ -67,18 +87,7 @@ def scan_street(street: Street, options: TruckOptions, seed: int) -> DriveScans:
     poses[:, 0, 1], poses[:, 1, 1] = -np.cos(yaw), -np.sin(yaw)
     poses[:, 2, 2] = 1.0
     poses[:, 0, 3], poses[:, 1, 3] = options.sway_m * np.cos(wave), y
-    angles = np.deg2rad(np.arange(-90.0, 90.0 + 1e-9, options.beam_step_deg))
-    ranges = np.zeros((len(y), len(angles)), dtype=np.float32)
-    kind = np.zeros(ranges.shape, dtype=np.uint8)
-    facade = np.full(ranges.shape, np.inf)
-    for first in range(0, len(y), 50):
-        rows = slice(first, first + 50)
-        near = _near(street, float(y[rows][0]) - 3.0, float(y[rows][-1]) + 3.0)
-        beams = _upright(poses[rows], angles)
-        ranges[rows], kind[rows], facade[rows] = _cast(near, poses[rows], beams, options, random)
-    times = y / options.speed_m_s
-    level = _scan_level(street, poses, options, random) if options.level else None
-    return DriveScans(times, poses, angles, ranges, kind, facade, options, level)
+    return poses
 
 
 def _upright(poses: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -100,26 +109,11 @@ def _scan_level(
         rows = slice(first, first + 50)
         place = poses[rows, 1, 3]
         far = options.farthest_m
-        near = _near(street, float(place.min()) - far, float(place.max()) + far)
+        near = street.between(float(place.min()) - far, float(place.max()) + far)
         beams = poses[rows, None, :, 0] * np.cos(angles)[None, :, None]
         beams = beams + poses[rows, None, :, 1] * np.sin(angles)[None, :, None]
         found[rows] = _cast(near, poses[rows], beams, options, random)[0]
     return found
-
-
-def _near(street: Street, low: float, high: float) -> Street:
-    """What of a street lies between two places along it."""
-
-    def boxes(given: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(given[(given[:, 1, 1] > low) & (given[:, 0, 1] < high)])
-
-    def round_ones(given: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(given[np.abs(given[:, 1] - (low + high) / 2) < (high - low) / 2 + 2.0])
-
-    return Street(
-        boxes(street.walls), boxes(street.objects), round_ones(street.cylinders),
-        round_ones(street.balls), boxes(street.panes), boxes(street.rooms), street.length_m,
-    )  # fmt: skip
 
 
 def _cast(

@@ -23,7 +23,8 @@ class Kind(IntEnum):
 class StreetOptions:
     """front_m: from the path to the facades. steps_m: houses stand back or forward by up to this.
     hedge: whether a hedge hides the foot of all walls. cars, trees, lamps: share of places taken.
-    porches: share of houses with a roof on two posts before the door.
+    porches: share of houses with a roof on two posts before the door. near_trees: share of houses
+    with a tree right before the wall: no image sees what is behind its crown.
     """
 
     length_m: float = 400.0
@@ -34,6 +35,7 @@ class StreetOptions:
     trees: float = 0.5
     lamps: float = 1.0
     porches: float = 0.0
+    near_trees: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,12 +55,28 @@ class Street:
     rooms: NDArray[np.float64]
     length_m: float
 
+    def between(self, low: float, high: float) -> Street:
+        """What of it lies between two places along it (m)."""
+
+        def boxes(given: NDArray[np.float64]) -> NDArray[np.float64]:
+            return np.asarray(given[(given[:, 1, 1] > low) & (given[:, 0, 1] < high)])
+
+        def round_ones(given: NDArray[np.float64]) -> NDArray[np.float64]:
+            away = np.abs(given[:, 1] - (low + high) / 2)
+            return np.asarray(given[away < (high - low) / 2 + 2.0])
+
+        return Street(
+            boxes(self.walls), boxes(self.objects), round_ones(self.cylinders),
+            round_ones(self.balls), boxes(self.panes), boxes(self.rooms), self.length_m,
+        )  # fmt: skip
+
 
 def build_street(options: StreetOptions, seed: int) -> Street:
     """The same street for the same seed. The path of a truck is the line x = 0."""
     random = np.random.default_rng(seed)
     walls, panes, rooms = [], [], []
     built_on = _Porches(options.porches, seed)
+    close = _NearTrees(options.near_trees, seed)
     place = -20.0
     while place < options.length_m + 20.0:
         width, height = random.uniform(8.0, 18.0), random.uniform(7.0, 16.0)
@@ -74,6 +92,7 @@ def build_street(options: StreetOptions, seed: int) -> Street:
                     _box(front - 0.31, front + 0.01, start, start + 1.2, storey, storey + 1.5)
                 )
         walls += built_on.before(front, place, width)
+        close.plant(front, place, width)
         back = front - random.uniform(2.5, 4.5)
         rooms.append(_box(back - 0.2, back, place, place + width, 0.0, height))
         place += width + (3.0 if random.uniform() < 0.15 else 0.0)
@@ -83,7 +102,9 @@ def build_street(options: StreetOptions, seed: int) -> Street:
             away = -options.front_m + options.steps_m + 1.5
             objects.append(_box(away, away + 0.6, start, start + 5.6, 0.0, 1.3))
     cylinders, balls = _trees(options, random)
-    cylinders = np.vstack([cylinders, np.array(built_on.posts).reshape(-1, 5)])
+    posts = np.array(built_on.posts + close.trunks).reshape(-1, 5)
+    cylinders = np.vstack([cylinders, posts])
+    balls = np.vstack([balls, np.array(close.crowns).reshape(-1, 4)])
     return Street(
         np.array(walls), np.array(objects).reshape(-1, 2, 3), cylinders, balls,
         np.array(panes), np.array(rooms), options.length_m,
@@ -114,6 +135,25 @@ class _Porches:
         for end in (start + 0.15, start + wide - 0.15):
             self.posts.append((front + deep - 0.15, end, 0.15, 0.0, 2.6))
         return [_box(front - 0.1, front + deep, start, start + wide, 2.6, 2.85)]
+
+
+class _NearTrees:
+    """Trees right before walls, of draws of their own, too."""
+
+    def __init__(self, share: float, seed: int) -> None:
+        self._share, self._random = share, np.random.default_rng((seed, 2))
+        self.trunks: list[tuple[float, float, float, float, float]] = []
+        self.crowns: list[tuple[float, float, float, float]] = []
+
+    def plant(self, front: float, place: float, width: float) -> None:
+        """Before a house, or not."""
+        if self._random.uniform() >= self._share:
+            return
+        x = front + self._random.uniform(1.7, 2.3)
+        y = place + self._random.uniform(2.0, width - 2.0)
+        high, radius = self._random.uniform(2.9, 3.8), self._random.uniform(1.2, 1.6)
+        self.trunks.append((x, y, 0.15, 0.0, high))
+        self.crowns.append((x, y, high, radius))
 
 
 def _cars(

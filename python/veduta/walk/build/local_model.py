@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.walk.build.features import Features, find_features
 from veduta.walk.build.marks import Marks, find_marks
 from veduta.walk.build.screen import Points, Screen
 from veduta.walk.build.sky import find_sky
@@ -51,6 +52,11 @@ class LocalModel:
     def grey(self) -> NDArray[np.float32]:
         """(h, w) light, 0..255."""
         return cv2.cvtColor(self.image, cv2.COLOR_RGB2GRAY).astype(np.float32)
+
+    @cached_property
+    def features(self) -> Features:
+        """By which it is matched with others."""
+        return find_features(self.grey, self.sky)
 
     @cached_property
     def marks(self) -> Marks:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,11 +12,10 @@ from veduta.walk.build.local_model import LocalModel
 
 @dataclass(frozen=True)
 class MatchSettings:
-    """features: at most, of each picture. ratio: how much nearer the best candidate must be than the
-    second (Lowe 2004). far_px: a match lies no further away, in shares of the width.
+    """ratio: how much nearer the best candidate must be than the second (Lowe 2004). far: a match
+    lies no further away, in shares of the width.
     """
 
-    features: int = 4000
     ratio: float = 0.8
     far: float = 0.6
 
@@ -40,22 +38,15 @@ class Matches:
 def match_features(
     first: LocalModel, second: LocalModel, settings: MatchSettings = MatchSettings()
 ) -> Matches:
-    """Features that are each other's best match; their detector has its own scales."""
-    detector = cv2.SIFT.create(settings.features, contrastThreshold=0.02)
-    points = []
-    descriptors = []
-    for model in (first, second):
-        mask = (~model.sky).astype(np.uint8) * 255
-        found, described = detector.detectAndCompute(model.grey.astype(np.uint8), mask)
-        points.append(np.array([one.pt for one in found], dtype=np.float64).reshape(-1, 2) + 0.5)
-        descriptors.append(described)
-    if any(one is None or len(one) < 2 for one in descriptors):
+    """Features that are each other's best match."""
+    one, other = first.features, second.features
+    if min(len(one.described), len(other.described)) < 2:
         return Matches(np.zeros((0, 2)), np.zeros((0, 2)))
-    rooted = [np.sqrt(one / np.maximum(one.sum(axis=1, keepdims=True), 1e-6)) for one in descriptors]
-    forth, back = _best(rooted[0], rooted[1], settings.ratio), _best(rooted[1], rooted[0], 1.0)
+    forth = _best(one.described, other.described, settings.ratio)
+    back = _best(other.described, one.described, 1.0)
     own = np.flatnonzero(forth >= 0)
     own = own[back[forth[own]] == own]
-    matches = Matches(points[0][own], points[1][forth[own]])
+    matches = Matches(one.pixels[own], other.pixels[forth[own]])
     apart = np.linalg.norm(matches.first - matches.second, axis=1)
     return matches.only(apart < settings.far * first.screen.width_px)
 

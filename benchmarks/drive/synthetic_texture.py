@@ -1,0 +1,276 @@
+"""Textures of synthetic drives with images, against the same fronts without what stood before them.
+
+python benchmarks/drive/synthetic_texture.py FOLDER [SEEDS] [FIRST]
+
+Of each seed a drive is shot into FOLDER, which keeps its row, so that a run may be cut in pieces.
+Holes of the atlas wider than a window are filled by the verb and by OpenCV's two inpaintings, on
+the same atlas. A window counts as found again where what differs from the wall's colour has a box
+that agrees with the true one by an intersection over union of 0.5; the same looks for the windows
+in the true texture, as a control. What hides the fronts in the images is compared pixel by pixel.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.drive.build.backdrop import backdrop_of
+from veduta.drive.build.beside import column_spacing, points_beside
+from veduta.drive.build.near_images import NearImages
+from veduta.drive.build.pictures_of import Around, Seen
+from veduta.drive.build.segment import Geometry, Textured, frame_of, reconstruct, texture
+from veduta.drive.options import DriveOptions
+from veduta.drive.read.own import read_own
+from veduta.drive.read.segments import cut_segments, driven_line
+from veduta.synthetic.drives import (
+    Fronts,
+    StreetCamera,
+    StreetOptions,
+    Taken,
+    TruckOptions,
+    build_street,
+    scan_street,
+    take_photos,
+    write_drive,
+    write_photos,
+)
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from texture_measures import psnr, ssim
+
+STREET = StreetOptions(length_m=45.0, near_trees=0.8, trees=0.5)
+CAMERA = StreetCamera(spacing_m=1.25)
+WINDOW_M, HIDDEN, FOUND = 1.2, 0.6, 0.5
+ON_FRONT_M, DIFFERS = 0.35, 28.0
+Pixels = NDArray[np.uint8]
+Mask = NDArray[np.bool_]
+Row = dict[str, str | int | float | bool | None]
+
+
+def shoot(folder: Path, seed: int) -> None:
+    """The drive as files, and beside them what hides the fronts in its images."""
+    street = build_street(STREET, seed)
+    truck = TruckOptions(level=True)
+    write_drive(scan_street(street, truck, seed), folder)
+    masks: dict[str, NDArray[np.uint8]] = {}
+
+    def kept() -> Iterator[Taken]:
+        for one in take_photos(street, Fronts(street, seed), truck, CAMERA, seed):
+            masks[f"before-{one.name}"] = np.packbits(one.photo.before)
+            masks[f"front-{one.name}"] = np.packbits(one.photo.front)
+            yield one
+
+    write_photos(kept(), CAMERA, folder)
+    np.savez_compressed(folder / "truth.npz", allow_pickle=False, **masks)
+
+
+def made(folder: Path) -> list[tuple[Geometry, Textured, list[Seen]]]:
+    """What the verb makes of the drive's left side."""
+    options = DriveOptions()
+    drive = read_own(folder)
+    spacing = column_spacing(drive, options)
+    found = []
+    for segment in cut_segments(driven_line(drive.path(), spacing, 0.0), spacing):
+        if segment.side == "left" and segment.fate == "build":
+            points = points_beside(drive, segment, options)
+            one = reconstruct(segment, frame_of(segment, options, drive.height_m), points, options)
+            found.append(one)
+
+    def around(one: Geometry) -> Around:
+        high = options.texture.wall_top_m
+        backdrop = backdrop_of(one.background, one.frame, high)
+        return Around(one.foreground(), one.crowns(options.seed), (backdrop,))
+
+    images = NearImages(drive.shots, [(one.segment, partial(around, one)) for one in found])
+    result = []
+    for one in found:
+        seen = images.near(one.segment)
+        result.append((one, texture(one, seen, options), seen))
+    return result
+
+
+def places_of(one: Textured) -> NDArray[np.float64]:
+    """(h, w, 3) world points of the atlas's texels, from its rows and columns."""
+    atlas, frame = one.atlas, one.geometry.frame
+    grid = frame.vertices(one.background.depth)
+    shape = atlas.seen.shape
+    rows = np.interp(-(np.arange(shape[0]) + 0.5), -atlas.row, np.arange(len(atlas.row)))
+    sign = 1.0 if atlas.column[-1] > atlas.column[0] else -1.0
+    numbers = np.arange(len(atlas.column))
+    columns = np.interp(sign * (np.arange(shape[1]) + 0.5), sign * atlas.column, numbers)
+    across, down = np.meshgrid(columns.astype(np.float32), rows.astype(np.float32))
+    middle = frame.origins[0]
+    near = (grid - middle).astype(np.float32)
+    found = cv2.remap(near, across, down, cv2.INTER_LINEAR)
+    return np.asarray(found + middle, dtype=np.float64)
+
+
+def true_texture(
+    fronts: Fronts, places: NDArray[np.float64], texel_m: float
+) -> tuple[Pixels, Mask]:
+    """(h, w, 3) the fronts at those places, and (h, w) where one stands there."""
+    flat = np.nan_to_num(places.reshape(-1, 3), nan=-1e3)
+    number = fronts.number_at(flat[:, 1])
+    front = np.array([house.front_m for house in fronts.houses])[number]
+    low = np.array([house.low_m for house in fronts.houses])[number]
+    top = np.array([house.top_m for house in fronts.houses])[number]
+    there = (np.abs(flat[:, 0] - front) < ON_FRONT_M) & (flat[:, 1] > low)
+    there &= (flat[:, 2] > 0.05) & (flat[:, 2] < top)
+    colour = np.full(flat.shape, 128.0)
+    foot = np.full(int(there.sum()), texel_m)
+    colour[there] = fronts.colours(flat[there, 1], flat[there, 2], foot)
+    shape = places.shape[:2]
+    return np.rint(colour).astype(np.uint8).reshape(*shape, 3), there.reshape(shape)
+
+
+def wide_holes(holes: Mask, places: NDArray[np.float64]) -> Mask:
+    """The holes that are wider and higher than a window."""
+    count, label, boxes, _ = cv2.connectedComponentsWithStats(holes.astype(np.uint8))
+    found = np.zeros_like(holes)
+    for number in range(1, count):
+        if boxes[number, cv2.CC_STAT_AREA] < 400:
+            continue
+        own = places[label == number]
+        wide, _, high = (
+            np.nanquantile(own, 0.98, axis=0)[[1, 0, 2]]
+            - np.nanquantile(own, 0.02, axis=0)[[1, 0, 2]]
+        )
+        if wide > WINDOW_M and high > 0.5 * WINDOW_M:
+            found |= label == number
+    return found
+
+
+def windows(
+    pixels: Pixels, fronts: Fronts, places: NDArray[np.float64], chosen: Mask
+) -> tuple[int, int]:
+    """How many windows lie mostly in the chosen part, and how many of them stand there in it."""
+    inside, found = 0, 0
+    y, z = places[..., 1], places[..., 2]
+    for house in fronts.houses:
+        unlike = np.abs(pixels.astype(np.float32) - house.wall).max(axis=2) > DIFFERS
+        for y0, y1, z0, z1 in house.panes.tolist():
+            own = (y > y0) & (y < y1) & (z > z0) & (z < z1)
+            if own.sum() < 200 or (own & chosen).sum() < HIDDEN * own.sum():
+                continue
+            inside += 1
+            about = (y > y0 - 0.6) & (y < y1 + 0.6) & (z > z0 - 0.02) & (z < z1 + 0.02)
+            dark = pixels.mean(axis=2) < 0.62 * house.wall.mean()
+            found += _agrees(about & unlike & dark, own, y, z)
+    return inside, found
+
+
+def _agrees(there: Mask, own: Mask, y: NDArray[np.float64], z: NDArray[np.float64]) -> bool:
+    """Whether the box of the largest thing found agrees with the window's."""
+    closed = cv2.morphologyEx(there.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((7, 7), np.uint8))
+    count, label, boxes, _ = cv2.connectedComponentsWithStats(closed)
+    if count < 2:
+        return False
+    largest = 1 + int(np.argmax(boxes[1:, cv2.CC_STAT_AREA]))
+    first, second = _box(own), _box(label == largest)
+    low, high = np.maximum(first[:2], second[:2]), np.minimum(first[2:], second[2:])
+    both = float(np.prod(np.maximum(high - low, 0)))
+    either = sum(float(np.prod(one[2:] - one[:2])) for one in (first, second)) - both
+    return both / either >= FOUND
+
+
+def _box(mask: Mask) -> NDArray[np.float64]:
+    rows, columns = np.nonzero(mask)
+    return np.array([rows.min(), columns.min(), rows.max() + 1, columns.max() + 1], dtype=float)
+
+
+def textures(textured: Textured, fronts: Fronts, texel_m: float, pictures: Path) -> list[Row]:
+    """A row of each method."""
+    atlas = textured.atlas
+    places = places_of(textured)
+    truth, there = true_texture(fronts, places, texel_m)
+    wide = wide_holes(atlas.surface & ~atlas.seen, places) & there
+    unknown = (~atlas.seen).astype(np.uint8)
+    methods: dict[str, Callable[[], NDArray[Any]]] = {
+        "veduta": lambda: textured.pixels,
+        "OpenCV Telea": lambda: cv2.inpaint(atlas.pixels, unknown, 5, cv2.INPAINT_TELEA),
+        "OpenCV Navier-Stokes": lambda: cv2.inpaint(atlas.pixels, unknown, 5, cv2.INPAINT_NS),
+        "truth (control)": lambda: truth,
+    }
+    rows: list[Row] = []
+    drawn = [np.where(atlas.seen[..., None], atlas.pixels, np.array([220, 40, 40], np.uint8))]
+    for name, fill in methods.items():
+        begin = time.process_time()
+        pixels = np.asarray(fill(), dtype=np.uint8)
+        seconds = time.process_time() - begin + (textured.fill_s if name == "veduta" else 0.0)
+        inside, found = windows(pixels, fronts, places, wide)
+        rows.append({
+            "method": name, "texels in wide holes": int(wide.sum()),
+            "PSNR (dB)": psnr(pixels / 255.0, truth / 255.0, wide),
+            "SSIM": ssim(pixels / 255.0, truth / 255.0, wide),
+            "windows hidden": inside, "found again": found, "seconds": seconds,
+        })  # fmt: skip
+        drawn.append(pixels)
+    seen = atlas.seen & there
+    rows.append({
+        "method": "texels that images show", "texels in wide holes": int(seen.sum()),
+        "PSNR (dB)": psnr(atlas.pixels / 255.0, truth / 255.0, seen),
+        "SSIM": ssim(atlas.pixels / 255.0, truth / 255.0, seen),
+    })  # fmt: skip
+    drawn.append(np.where(wide[..., None], np.uint8(255), np.uint8(0)).repeat(3, axis=2))
+    cv2.imwrite(str(pictures), np.vstack(drawn)[..., ::-1])
+    return rows
+
+
+def masks(folder: Path, seen: list[Seen]) -> dict[str, int]:
+    """Pixels before fronts: hidden ones found, and others that are held for hidden."""
+    truth = np.load(folder / "truth.npz")
+    told = dict.fromkeys(("before", "before found", "behind", "behind hidden"), 0)
+    for one in seen:
+        shape = one.sky.shape
+        count = shape[0] * shape[1]
+        before, front = (
+            np.unpackbits(truth[f"{kind}-{one.shot.name}"], count=count).reshape(shape) > 0
+            for kind in ("before", "front")
+        )
+        hidden = np.isfinite(one.hidden_m) | one.leaves
+        told["before"] += int((before & front).sum())
+        told["before found"] += int((before & front & hidden).sum())
+        told["behind"] += int((front & ~before).sum())
+        told["behind hidden"] += int((front & ~before & hidden).sum())
+    return told
+
+
+def one_seed(folder: Path, seed: int) -> dict[str, Any]:
+    """All figures of a drive."""
+    if not (folder / "truth.npz").is_file():
+        shoot(folder, seed)
+    fronts = Fronts(build_street(STREET, seed), seed)
+    found: dict[str, Any] = {"rows": [], "masks": {}}
+    for number, (_, textured, seen) in enumerate(made(folder)):
+        picture = folder / f"textures-{number}.png"
+        found["rows"] += textures(textured, fronts, DriveOptions().texture.texel_m, picture)
+        found["masks"] = masks(folder, seen)
+    return found
+
+
+def main() -> None:
+    """Measure, print and keep."""
+    folder = Path(sys.argv[1])
+    seeds = int(sys.argv[2]) if len(sys.argv) > 2 else 6
+    first = int(sys.argv[3]) if len(sys.argv) > 3 else 500
+    told = []
+    for seed in range(first, first + seeds):
+        kept = folder / f"{seed}.json"
+        if not kept.is_file():
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            kept.write_text(json.dumps(one_seed(folder / str(seed), seed)))
+        told.append(json.loads(kept.read_text()))
+        print(seed, json.dumps(told[-1]), flush=True)
+
+
+if __name__ == "__main__":
+    main()
