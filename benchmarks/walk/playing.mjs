@@ -12,6 +12,8 @@ const [studio, address, picture] = process.argv.slice(2);
 const { chromium } = createRequire(`${studio}/package.json`)("playwright-core");
 const PATIENCE_MS = 200_000;
 const NEAR = 0.08;
+/** A frame that takes longer is a hitch. */
+const HITCH_MS = 100;
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -60,13 +62,18 @@ function told(frames, tasks, heap) {
   const sorted = column(1).sort((a, b) => a - b);
   const last = Math.max(...column(0));
   const isKey = (at) => Math.abs(at - Math.round(at)) < NEAR && at > NEAR && at < last - NEAR;
+  const [atKeys, between] = [true, false].map((wanted) => frames.filter(([at]) => isKey(at) === wanted).map((row) => row[1]));
+  const hitches = (values) => values.filter((value) => value > HITCH_MS).length;
   const most = (values) => (values.length === 0 ? 0 : Math.max(...values));
   return {
     frames: frames.length,
     median_ms: sorted[Math.floor(sorted.length / 2)],
     p95_ms: sorted[Math.floor(0.95 * sorted.length)],
-    most_at_keys_ms: most(frames.filter(([at]) => isKey(at)).map((row) => row[1])),
-    most_between_ms: most(frames.filter(([at]) => !isKey(at)).map((row) => row[1])),
+    keys_crossed: Math.max(0, Math.round(last) - 1),
+    most_at_keys_ms: most(atKeys),
+    hitches_at_keys: hitches(atKeys),
+    most_between_ms: most(between),
+    hitches_between: hitches(between),
     longest_task_at_keys_ms: most(tasks.filter(([at]) => isKey(at)).map((row) => row[1])),
     draw_calls: most(column(2)),
     triangles: most(column(3)),

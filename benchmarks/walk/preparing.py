@@ -85,8 +85,8 @@ def main() -> None:
         "Three views at each key position, joined to mosaics; 3 m from one to the next. One"
         " process; what OpenCV does on a second core counts into its processor time.",
         "Played at 960 x 540 CSS px, half as many drawn, by a software renderer on two shared"
-        " cores. at_keys: within 0.08 of a key position, where models come and go; longest_task:"
-        " of the page's own thread.",
+        " cores. at_keys: within 0.08 of a key position, where models come and go; hitches: frames"
+        " of over 100 ms; longest_task: of the page's own thread.",
         "draw_calls: what was seen and what spans breaks of both models, and their mixture."
         " card_MB: all models, pictures, and the two pictures that are mixed.",
     ]

@@ -36,14 +36,19 @@ from veduta.run.errors import InputError, NotFoundError
 from veduta.run.threads import available_cores
 from veduta.run.work import Work
 
-MOST_TAKEN_OUT = 3_000_000
-"""Points of the whole drive that are shown as taken out; `points.laz` has all."""
-FEWEST_COLUMNS = 10
-"""Columns with a facade that a segment needs."""
-
 _IDLE_S = 0.5
 Item = TypeVar("Item")
 Made = TypeVar("Made")
+
+
+@dataclass(frozen=True)
+class StageParameters:
+    """most_taken_out: points of the whole drive that are shown as taken out; `points.laz` has all.
+    fewest_columns: columns with a facade that a segment needs.
+    """
+
+    most_taken_out: int = 3_000_000
+    fewest_columns: int = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +69,7 @@ def layer_segments(
     work: Work,
 ) -> list[Layered]:
     """Sections 5 and 6 for all segments. NotFoundError where none has a facade."""
-    found = []
+    found, fewest = [], StageParameters().fewest_columns
     with work.step("layers") as step:
         built = [one for one in segments if one.fate != "leave-out"]
 
@@ -76,7 +81,7 @@ def layer_segments(
             load = partial(geometry_of, segment)
             if geometry.segment.fate == "as-is" and segment.fate != "as-is":
                 step.rejected.append(f"{segment.id}: {geometry.segment.reason}")
-            if geometry.segment.fate == "build" and geometry.measured_walls() < FEWEST_COLUMNS:
+            if geometry.segment.fate == "build" and geometry.measured_walls() < fewest:
                 step.rejected.append(f"{segment.id}: no facade stands along it")
                 continue
 
@@ -182,7 +187,7 @@ def texture_segments(
             idle()
             found.append(outcome_of(
                 made, partial(again, number), seen, options.texture.texel_m,
-                max(MOST_TAKEN_OUT // len(layered), 1), work.folder,
+                max(StageParameters().most_taken_out // len(layered), 1), work.folder,
             ))  # fmt: skip
             _show(made, work)
             step.counts[f"{layered[number].segment.id}: triangles"] = len(made.surface.triangles)

@@ -126,6 +126,22 @@ def test_crowns_hide_where_no_image_beside_tells() -> None:
     assert not np.isfinite(told.hidden_m).any()
 
 
+def test_greenish_plaster_is_no_plant() -> None:
+    """What fits the wall is of it unless it is as green as leaves are."""
+    tones = {"plaster": (176, 186, 178), "leaves": (70, 112, 52), "dull leaves": (120, 132, 116)}
+    found = {}
+    for name, tone in tones.items():
+        (one, _), (before, _), (after, _) = _picture(4.5), _picture(4.1), _picture(4.9)
+        plain = np.full_like(one.pixels, tone)
+        frames = [Frame(other.shot, plain) for other in (one, before, after)]
+        around = Around(NOTHING, NOTHING, (backdrop_of(_background(), _frame(), 0.0),))
+        alone = look(frames[0], around)
+        beside = look(frames[0], around, frames[1:])
+        middle = (slice(100, 140), slice(120, 200))
+        found[name] = (alone.leaves[middle].mean(), beside.leaves[middle].mean())
+    assert found == {"plaster": (1.0, 0.0), "leaves": (1.0, 1.0), "dull leaves": (1.0, 0.0)}
+
+
 def test_an_image_of_another_size_is_named(tmp_path: Path) -> None:
     from PIL import Image
 

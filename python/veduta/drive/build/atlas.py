@@ -15,17 +15,15 @@ from veduta.drive.build.frame import ColumnFrame
 from veduta.drive.build.pictures_of import Seen
 
 
-_NORMAL_TEXELS = 25
-"""Over so many texels the surface's direction is taken."""
-
-
 @dataclass(frozen=True)
 class AtlasParameters:
     """in_front_m: what hides a texel is so much nearer than it. steepest: cosine of the angle
     between surface and ray below which an image shows a texel too slantingly.
     differs: difference from the median of all images (of 255) at which one shows something else.
     fewest: images that must show a texel for such a vote. block: texels, seams run between blocks.
-    sky: texels where most images show sky are of no wall.
+    sky: texels where most images show sky are of no wall. largest: texels of a side of the atlas.
+    seam_base, seam_slope, seam_most, rounds: costs of seams, and rounds of their search. normal:
+    texels over which the surface's direction is taken.
     """
 
     in_front_m: float = 0.4
@@ -38,6 +36,7 @@ class AtlasParameters:
     seam_slope: float = 1.5
     seam_most: float = 1.0
     rounds: int = 10
+    normal: int = 25
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +107,7 @@ def build_atlas(
     """The best image of each block of texels, what others show instead outvoted."""
     chosen = parameters or AtlasParameters()
     row, column, shape = lay_out(depth, frame, texel_m, chosen.largest)
-    place, normal = _texels(depth, frame, row, column, shape)
+    place, normal = _texels(depth, frame, row, column, shape, chosen.normal)
     surface = np.isfinite(place[..., 0])
     views = [_view(one, place, normal, surface, chosen) for one in seen]
     inputs = sum(one.pixels.shape[0] * one.pixels.shape[1] for one in seen)
@@ -135,6 +134,7 @@ def _texels(
     row: NDArray[np.float64],
     column: NDArray[np.float64],
     shape: tuple[int, int],
+    over: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
     """(h, w, 3) world points of the texels' middles, NaN outside, and their unit normals."""
     origin = frame.origins[len(frame.origins) // 2]
@@ -148,17 +148,16 @@ def _texels(
         grid, at[0], at[1], cv2.INTER_LINEAR,
         borderMode=cv2.BORDER_CONSTANT, borderValue=(np.nan,) * 3,
     )  # fmt: skip
-    smooth = _smooth(place)
+    smooth = _smooth(place, (over, over))
     cross: NDArray[Any] = np.cross(np.gradient(smooth, axis=1), np.gradient(smooth, axis=0))
     length = np.linalg.norm(cross, axis=2, keepdims=True)
     normal = (cross / np.maximum(length, 1e-9)).astype(np.float32)
     return np.asarray(place + origin, dtype=np.float64), normal
 
 
-def _smooth(place: NDArray[Any]) -> NDArray[Any]:
+def _smooth(place: NDArray[Any], size: tuple[int, int]) -> NDArray[Any]:
     """The texels' places averaged over those around that are there: normals without noise."""
     known = np.isfinite(place[..., 0]).astype(np.float32)
-    size = (_NORMAL_TEXELS, _NORMAL_TEXELS)
     weight = np.maximum(cv2.blur(known, size), 1e-6)
     return np.asarray(cv2.blur(np.nan_to_num(place), size) / weight[..., None])
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,30 +15,45 @@ from veduta.drive.document.model import DriveSegment
 from veduta.drive.options import DriveOptions
 from veduta.drive.record import DriveRecord, Shot
 
-_VERTICAL_M = 3.0
-"""A vertical scan belongs to a segment that is so near to where it was taken."""
-_LEVEL_M = 20.0
-"""What level scans see farther away is off by more than interpolation is."""
-_IMAGES_M = 12.0
-"""Images taken so near to a segment give points of it."""
-_FEWEST_IMAGES = 2
+
+@dataclass(frozen=True)
+class BesideParameters:
+    """vertical_m: a vertical scan belongs to a segment that is so near to where it was taken.
+    level_m: what level scans see farther away is off by more than interpolation is. images_m:
+    images taken so near to a segment give points of it, where there are more than fewest_images.
+    moving_m: scans that are nearer to each other are of a stop.
+    """
+
+    vertical_m: float = 3.0
+    level_m: float = 20.0
+    images_m: float = 12.0
+    fewest_images: int = 2
+    moving_m: float = 0.02
 
 
-def column_spacing(record: DriveRecord, options: DriveOptions) -> float:
+def column_spacing(
+    record: DriveRecord, options: DriveOptions, parameters: BesideParameters | None = None
+) -> float:
     """Metres between two columns: no less than the scans are apart, where they are vertical."""
+    chosen = parameters or BesideParameters()
     wanted = options.columns.column_spacing_m
     if record.full or len(record.sweeps) < 2:
         return wanted
     steps = np.linalg.norm(np.diff(record.path()[:, :2], axis=0), axis=1)
-    moving = steps[steps > 0.02]
+    moving = steps[steps > chosen.moving_m]
     return max(wanted, float(np.median(moving))) if len(moving) else wanted
 
 
 def points_beside(
-    record: DriveRecord, segment: DriveSegment, options: DriveOptions
+    record: DriveRecord,
+    segment: DriveSegment,
+    options: DriveOptions,
+    parameters: BesideParameters | None = None,
 ) -> NDArray[np.float64]:
     """(n, 3) the points of all sweeps that can have seen a segment (m, world)."""
-    reach = options.columns.reach_m + options.columns.farthest_m if record.full else _VERTICAL_M
+    chosen = parameters or BesideParameters()
+    full_m = options.columns.reach_m + options.columns.farthest_m
+    reach = full_m if record.full else chosen.vertical_m
     line = np.array(segment.line)[:, :2]
     distance, _ = cKDTree(line).query(record.path()[:, :2])
     near = np.flatnonzero(distance <= reach)
@@ -47,20 +63,24 @@ def points_beside(
 
 
 def others_beside(
-    record: DriveRecord, segment: DriveSegment, options: DriveOptions
+    record: DriveRecord,
+    segment: DriveSegment,
+    options: DriveOptions,
+    parameters: BesideParameters | None = None,
 ) -> NDArray[np.float64]:
     """(n, 3) what level scans and consecutive images show around a segment (m, world)."""
+    chosen = parameters or BesideParameters()
     tree = cKDTree(np.array(segment.line)[:, :2])
     found = [np.zeros((0, 3))]
     if options.others.level_scans and record.level:
         places = np.array([sweep.world_from_sensor[:2, 3] for sweep in record.level])
-        for row in np.flatnonzero(tree.query(places)[0] <= _LEVEL_M).tolist():
+        for row in np.flatnonzero(tree.query(places)[0] <= chosen.level_m).tolist():
             points = record.level[row].world_points()
             away = np.linalg.norm(points[:, :2] - places[row], axis=1)
-            found.append(points[away <= _LEVEL_M])
-    if options.others.stereo and len(record.shots) > _FEWEST_IMAGES:
+            found.append(points[away <= chosen.level_m])
+    if options.others.stereo and len(record.shots) > chosen.fewest_images:
         places = np.array([shot.world_from_cam[:2, 3] for shot in record.shots])
-        near = np.flatnonzero(tree.query(places)[0] <= _IMAGES_M)
+        near = np.flatnonzero(tree.query(places)[0] <= chosen.images_m)
         found.append(_of_images([record.shots[row] for row in near.tolist()]))
     return np.concatenate(found)
 

@@ -13,10 +13,6 @@ from veduta.drive.build.frame import ColumnFrame
 from veduta.drive.build.layers import Layers
 
 
-_SEEN_SHARE = 0.1
-"""A row of which less is measured is outside of the scanner's fan."""
-
-
 class Source(IntEnum):
     """Where a pixel of the background comes from."""
 
@@ -35,6 +31,7 @@ class FillParameters:
     differ more are of two houses. road_m: the ground is filled so far out where nothing stands.
     alone: measured pixels with fewer measured ones around (7 x 7) are removed.
     smooth_m: how much the surface may move where it is smoothed (3 sigma of the scanner, 3.5 cm).
+    seen: a row of which a smaller share is measured is outside of the scanner's fan.
     """
 
     gap_m: float = 6.0
@@ -44,6 +41,7 @@ class FillParameters:
     road_m: float = 12.0
     alone: int = 5
     smooth_m: float = 0.1
+    seen: float = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +77,9 @@ def fill_background(
     wall = np.where(upper, measured, np.nan)
     top = _top_rows(np.isfinite(wall), foot, frame.spacing_m)
     inside = upper & (rows <= top) & np.isfinite(main)
-    filled = _across(wall, frame.spacing_m, chosen, axis=1)
+    # From the main depth on, which steps where fronts do: a step is not filled as a slope.
+    base = np.where(np.isfinite(main), main, 0.0).astype(np.float32)[None]
+    filled = _across(wall - base, frame.spacing_m, chosen, axis=1) + base
     filled = _across(filled, float("nan"), chosen, axis=0)
     filled = np.where(inside & np.isnan(filled), main[None].astype(np.float32), filled)
     filled = np.where(inside, filled, wall)
@@ -196,16 +196,16 @@ def _ground_depth(
         near = np.clip(depth, 0.0, limit)
         depth = (height + layers.ground.under(columns, near)) / down
     ground = (frame.angles_rad[:, None] < 0.0) & ~upper & (depth <= limit) & (depth > 0.0)
-    ground &= np.arange(frame.shape[0])[:, None] >= _lowest_row(measured)
+    ground &= np.arange(frame.shape[0])[:, None] >= _lowest_row(measured, chosen.seen)
     return np.where(np.isfinite(measured), measured, np.where(ground, depth, np.nan)).astype(
         np.float32
     )
 
 
-def _lowest_row(measured: NDArray[np.float32]) -> int:
+def _lowest_row(measured: NDArray[np.float32], least: float) -> int:
     """The beams below see nothing: the road under a scanner that looks level."""
     share = np.isfinite(measured).mean(axis=1)
-    seen = np.flatnonzero(share > _SEEN_SHARE)
+    seen = np.flatnonzero(share > least)
     return int(seen[0]) if len(seen) else 0
 
 

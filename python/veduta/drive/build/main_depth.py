@@ -15,6 +15,7 @@ from scipy import ndimage
 
 from veduta.drive.build.frame import ColumnFrame, ColumnPoints
 from veduta.drive.build.porches import find_porches
+from veduta.drive.build.steps import sharpened
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,10 @@ class DepthParameters:
     """A wall across the path is looked for so near to where the main depth jumps."""
     across_jump_m: float = 1.5
     across_share: float = 0.45
+    lone_m: float = 3.0
+    """A piece shorter than this along the path is a tree or a van, not a front,"""
+    lone_before_m: float = 1.5
+    """where it stands so far before what is on both of its sides (the paper's median filter)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,9 +94,11 @@ def find_main_depth(
     standing = (histogram >= chosen.least_m) & (depth >= chosen.nearest_m)
     gain = np.where(standing, gain + chosen.farther * depth, 0.0)
     line = _cheapest_line(-gain, chosen)
-    supported = gain[np.arange(len(line)), line] > 0.0
+    line, lone = _without_lone(line, frame.spacing_m, chosen)
+    supported = (gain[np.arange(len(line)), line] > 0.0) | lone
     main = np.where(supported, depth[line], np.nan)
     main = _refined(points, above_ground, main, chosen)
+    main = sharpened(main, points, above_ground, frame.spacing_m)
     split = np.minimum(_split(histogram, line, chosen), main - chosen.bin_m)
     split = np.where(supported, split, np.nan)
     split, across = _walls_across(raw, main, split, frame.spacing_m, chosen)
@@ -197,6 +204,26 @@ def _cheapest_line(cost: NDArray[np.float64], chosen: DepthParameters) -> NDArra
     for column in range(columns - 1, 0, -1):
         line[column - 1] = back[column, line[column]]
     return line
+
+
+def _without_lone(
+    line: NDArray[np.int64], spacing_m: float, chosen: DepthParameters
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """The line with short pieces before all else put back to what is beside them, and where."""
+    result, lone = line.copy(), np.zeros(len(line), dtype=bool)
+    before = int(round(chosen.lone_before_m / chosen.bin_m))
+    cuts = np.flatnonzero(np.abs(np.diff(line)) >= before // 2) + 1
+    ends = [0, *cuts.tolist(), len(line)]
+    for first, last in zip(ends[1:-2], ends[2:-1], strict=True):
+        beside = line[first - 1], line[last]
+        if (last - first) * spacing_m >= chosen.lone_m:
+            continue
+        if min(beside) - int(line[first:last].max()) < before:
+            continue
+        middle = (first + last) // 2
+        result[first:middle], result[middle:last] = beside
+        lone[first:last] = True
+    return result, lone
 
 
 def _refined(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -15,21 +16,32 @@ from veduta.drive.build.pictures_of import Around, Seen, look, read_shot
 from veduta.drive.document.model import DriveSegment
 from veduta.drive.record import Shot
 
-NEAR_M = 45.0
-"""Images taken farther away add nothing to a facade, and nothing farther hides one."""
-HELD_IMAGES, HELD_SEGMENTS = 24, 6
-"""In memory at once."""
-MOVED_M = (0.05, 5.0)
-"""Images taken so far apart are compared: from nearer ones nothing moves, farther ones differ."""
 T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class NearParameters:
+    """near_m: images taken farther away add nothing to a facade, and nothing farther hides one.
+    held_images, held_segments: in memory at once. moved_m: images taken so far apart are compared:
+    from nearer ones nothing moves, farther ones differ.
+    """
+
+    near_m: float = 45.0
+    held_images: int = 24
+    held_segments: int = 6
+    moved_m: tuple[float, float] = (0.05, 5.0)
 
 
 class NearImages:
     """segments: each with what loads its surroundings. looked: how many images were looked at."""
 
     def __init__(
-        self, shots: Sequence[Shot], segments: Sequence[tuple[DriveSegment, Callable[[], Around]]]
+        self,
+        shots: Sequence[Shot],
+        segments: Sequence[tuple[DriveSegment, Callable[[], Around]]],
+        parameters: NearParameters | None = None,
     ) -> None:
+        self._chosen = parameters or NearParameters()
         self._shots = shots
         self._places = np.array([shot.world_from_cam[:3, 3] for shot in shots]).reshape(-1, 3)
         self._segments = segments
@@ -44,7 +56,7 @@ class NearImages:
         if not len(self._shots):
             return []
         distance, _ = cKDTree(np.array(segment.line)[:, :2]).query(self._places[:, :2])
-        return [self._one(row) for row in np.flatnonzero(distance < NEAR_M).tolist()]
+        return [self._one(row) for row in np.flatnonzero(distance < self._chosen.near_m).tolist()]
 
     def _one(self, row: int) -> Seen:
         def made() -> Seen:
@@ -52,29 +64,32 @@ class NearImages:
             beside = [self._frame(other) for other in self._beside(row)]
             return look(self._frame(row), self._surroundings(row), beside)
 
-        return _held(self._seen, row, made, HELD_IMAGES)
+        return _held(self._seen, row, made, self._chosen.held_images)
 
     def _frame(self, row: int) -> Frame:
-        return _held(self._frames, row, lambda: read_shot(self._shots[row]), HELD_IMAGES)
+        most = self._chosen.held_images
+        return _held(self._frames, row, lambda: read_shot(self._shots[row]), most)
 
     def _beside(self, row: int) -> list[int]:
         """The last image before and the first one after it from which things move."""
         away = np.linalg.norm(self._places - self._places[row], axis=1)
-        usable = (away >= MOVED_M[0]) & (away <= MOVED_M[1])
+        least, most = self._chosen.moved_m
+        usable = (away >= least) & (away <= most)
         before, after = np.flatnonzero(usable[:row]), np.flatnonzero(usable[row + 1 :])
         return [int(one) for one in (*before[-1:], *(after[:1] + row + 1))]
 
     def _surroundings(self, row: int) -> Around:
         """Of all segments that an image can show."""
-        eye = self._places[row]
+        eye, reach = self._places[row], 2 * self._chosen.near_m
         foreground, crowns = [np.zeros((0, 3))], [np.zeros((0, 3))]
         backdrops: list[Backdrop] = []
         for number, line in enumerate(self._lines):
-            if np.linalg.norm(line - eye[:2], axis=1).min() > 2 * NEAR_M:
+            if np.linalg.norm(line - eye[:2], axis=1).min() > reach:
                 continue
-            own = _held(self._around, number, self._segments[number][1], HELD_SEGMENTS)
+            load = self._segments[number][1]
+            own = _held(self._around, number, load, self._chosen.held_segments)
             for kept, points in ((foreground, own.foreground), (crowns, own.crowns)):
-                kept.append(points[np.linalg.norm(points[:, :2] - eye[:2], axis=1) < 2 * NEAR_M])
+                kept.append(points[np.linalg.norm(points[:, :2] - eye[:2], axis=1) < reach])
             backdrops += own.backdrops
         return Around(np.concatenate(foreground), np.concatenate(crowns), tuple(backdrops))
 

@@ -34,7 +34,11 @@ class MaskParameters:
     sky_light: int = 110
     leaf_green: int = 14
     leaf_px: int = 9
-    """Leaves: 2 G - R - B exceeds this, in most of a square of so many pixels."""
+    """Leaves: 2 G - R - B exceeds this, in most of a square of so many pixels,"""
+    leaf_share: float = 0.12
+    """and this share of R + G + B; less green is leaves only where it does not fit the background,"""
+    leaf_fits_px: float = 1.5
+    """which what fits better than this does: plaster may be greenish, too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,11 +89,11 @@ def look(
     """
     chosen = parameters or MaskParameters()
     sky = _sky(one.pixels, chosen)
-    leaves = _leaves(one.pixels, sky, chosen)
     hidden = _hidden(one.shot, around.foreground, chosen)
     crowns = _hidden(one.shot, around.crowns, chosen)
     drawn = draw_backdrops(one.shot, around.backdrops)
     misfit = correspondence_error(one, drawn.depth, beside)
+    leaves = _leaves(one.pixels, sky, misfit, chosen)
     told = np.isfinite(misfit)
     if told.any():
         flooded = flood_foreground(one, misfit, drawn, around.foreground, sky)
@@ -134,9 +138,18 @@ def _sky(pixels: NDArray[np.uint8], chosen: MaskParameters) -> NDArray[np.bool_]
 
 
 def _leaves(
-    pixels: NDArray[np.uint8], sky: NDArray[np.bool_], chosen: MaskParameters
+    pixels: NDArray[np.uint8],
+    sky: NDArray[np.bool_],
+    misfit: NDArray[np.float32],
+    chosen: MaskParameters,
 ) -> NDArray[np.bool_]:
+    """Plants by their colour, or by less of it where they do not fit the background."""
     red, green, blue = (pixels[..., axis].astype(np.int16) for axis in range(3))
-    greenish = (2 * green - red - blue >= chosen.leaf_green).astype(np.float32)
-    most = cv2.blur(greenish, (chosen.leaf_px, chosen.leaf_px)) > 0.5
-    return np.asarray(most & ~sky, dtype=bool)
+    excess = 2 * green - red - blue
+    greenish = excess >= chosen.leaf_green
+    strong = greenish & (excess >= chosen.leaf_share * (red + green + blue))
+    size = (chosen.leaf_px, chosen.leaf_px)
+    most, sure = (cv2.blur(one.astype(np.float32), size) > 0.5 for one in (greenish, strong))
+    with np.errstate(invalid="ignore"):
+        fits = misfit < chosen.leaf_fits_px
+    return np.asarray((sure | (most & ~fits)) & ~sky, dtype=bool)

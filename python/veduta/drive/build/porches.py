@@ -26,7 +26,8 @@ class PorchParameters:
     looked at for what carries it. bin_m: of depth. joined: share of the depths from its front to
     the wall at which something lies at the height of its top. open: share of columns in which one
     sees through, more than below_m below its top: not through cars. carried: share of columns in
-    which something stands below its front: below a crown hardly anything does.
+    which something stands below its front: below a crown hardly anything does. over_m, over: share
+    of columns in which more stands over_m above its top, and off_wall_m before the wall: a crown.
     """
 
     nearest_m: float = 0.7
@@ -43,6 +44,9 @@ class PorchParameters:
     open: float = 0.5
     below_m: float = 0.6
     carried: float = 0.08
+    over_m: float = 0.4
+    over: float = 0.3
+    off_wall_m: float = 1.2
 
 
 def find_porches(
@@ -116,4 +120,7 @@ def _is_built(
     carried = len(np.unique(points.column[low])) / len(columns)
     through = own & (points.depth > depth + chosen.roof_m) & (above < level - chosen.below_m)
     below = len(np.unique(points.column[through])) / len(columns)
+    higher = own & (points.depth < wall - chosen.off_wall_m) & (above > level + chosen.over_m)
+    if len(np.unique(points.column[higher])) > chosen.over * len(columns):
+        return False
     return carried >= chosen.carried and max(joined / chosen.joined, below / chosen.open) >= 1.0

@@ -25,14 +25,31 @@ from veduta.drive.build.trees import TreeParameters, as_scanned, direction_chang
 from veduta.drive.document.model import DriveSegment
 from veduta.drive.options import DriveOptions
 
-NEAREST_M = 1.0
-"""Nearer to the path is the road under the vehicle."""
-TALL_M = 1.9
-"""Cars and hedges are lower; trunks and poles are not."""
-CROWN_M, CROWN_HIGH_M, CROWN_POINTS = 0.6, 3.0, 40_000
 _BEFORE_ATLAS, _BEFORE_FILL = 0.1, 0.4
 """How much of the time of texturing has gone by then."""
-LOWEST_DEG, HIGHEST_DEG = -85.0, 72.0
+
+
+@dataclass(frozen=True)
+class PlanesParameters:
+    """nearest_m: nearer to the path is the road under the vehicle. lowest_deg, highest_deg: beams
+    of the virtual scanner, over level.
+    """
+
+    nearest_m: float = 1.0
+    lowest_deg: float = -85.0
+    highest_deg: float = 72.0
+
+
+@dataclass(frozen=True)
+class CrownParameters:
+    """tall_m: cars and hedges are lower; trunks and poles are not. wide_m, high_m: a crown is so
+    much wider than its trunk, and goes on so much above it. points: that stand for crowns.
+    """
+
+    tall_m: float = 1.9
+    wide_m: float = 0.6
+    high_m: float = 3.0
+    points: int = 40_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,21 +73,24 @@ class Geometry:
         taken = self.layers.kind == PointClass.FOREGROUND
         return np.asarray(self.layers.points.points[taken], dtype=np.float64)
 
-    def crowns(self, seed: int) -> NDArray[np.float64]:
+    def crowns(
+        self, seed: int, parameters: CrownParameters | None = None
+    ) -> NDArray[np.float64]:
         """(n, 3) where crowns of trees may be, above what the scanner saw (m).
 
         What is higher than cars goes on upwards, wider than below: more is hidden rather than less
         (section 7.1).
         """
-        high = self.layers.above > TALL_M
+        chosen = parameters or CrownParameters()
+        high = self.layers.above > chosen.tall_m
         trunk = self.layers.points.points[(self.layers.kind == PointClass.FOREGROUND) & high]
         if not len(trunk):
             return np.zeros((0, 3))
         random = np.random.default_rng(seed)
-        stem = trunk[random.integers(0, len(trunk), CROWN_POINTS)]
+        stem = trunk[random.integers(0, len(trunk), chosen.points)]
         angle, radius = random.uniform(0, 2 * np.pi, len(stem)), random.uniform(0, 1, len(stem))
-        reach = CROWN_M * np.sqrt(radius)
-        lift = random.uniform(0.0, CROWN_HIGH_M, len(stem))
+        reach = chosen.wide_m * np.sqrt(radius)
+        lift = random.uniform(0.0, chosen.high_m, len(stem))
         reach *= np.minimum(lift, 1.0)
         spread = np.stack([reach * np.cos(angle), reach * np.sin(angle), lift], axis=1)
         return np.asarray(stem + spread, dtype=np.float64)
@@ -106,10 +126,17 @@ class Textured:
     join_s: float
 
 
-def frame_of(segment: DriveSegment, options: DriveOptions, road_m: float) -> ColumnFrame:
+def frame_of(
+    segment: DriveSegment,
+    options: DriveOptions,
+    road_m: float,
+    parameters: PlanesParameters | None = None,
+) -> ColumnFrame:
     """The scanning planes of a segment. road_m: height of the scanner over the road."""
+    chosen = parameters or PlanesParameters()
     line = np.array(segment.line)
-    angles = np.deg2rad(np.arange(LOWEST_DEG, HIGHEST_DEG, options.columns.row_step_deg))
+    step = options.columns.row_step_deg
+    angles = np.deg2rad(np.arange(chosen.lowest_deg, chosen.highest_deg, step))
     return column_frame(line, segment.side, angles, line[:, 2] - road_m)
 
 
@@ -119,6 +146,7 @@ def reconstruct(
     points: NDArray[np.float64],
     options: DriveOptions,
     others: NDArray[np.float64] | None = None,
+    parameters: PlanesParameters | None = None,
 ) -> Geometry:
     """Sections 5 and 6. points: (n, 3) of all sweeps that saw the segment (m, world).
 
@@ -126,7 +154,8 @@ def reconstruct(
     """
     begin = time.perf_counter()
     farthest = options.columns.farthest_m
-    sorted_points = sort_into_columns(points, frame, NEAREST_M, farthest)
+    nearest = (parameters or PlanesParameters()).nearest_m
+    sorted_points = sort_into_columns(points, frame, nearest, farthest)
     layers = split_layers(sorted_points, frame, farthest)
     if segment.fate == "as-is":
         return _left_alone(segment, frame, layers)

@@ -12,11 +12,6 @@ from veduta.drive.build.frame import ColumnFrame
 from veduta.drive.build.layers import Layers
 
 
-_JOINED = 5
-"""Beams or columns between two that met the same thing."""
-_ALIKE_M = 0.3
-
-
 @dataclass(frozen=True)
 class TreeParameters:
     """Thresholds of the recognition.
@@ -24,13 +19,16 @@ class TreeParameters:
     over_m: only what is higher over the road counts: cars and hedges stand before facades, too.
     turn_m: a step of less between two beams is noise (3 sigma of a scanner with 3.5 cm).
     most: share of direction changes above which a segment is trees; walls with balconies stay below
-    a tenth, crowns exceed a third. fewest: steps that must be there to tell.
+    a tenth, crowns exceed a third. fewest: steps that must be there to tell. joined: beams or
+    columns between two that met the same thing, whose depths differ by less than alike_m 10 m away.
     """
 
     over_m: float = 2.2
     turn_m: float = 0.12
     most: float = 0.3
     fewest: int = 300
+    joined: int = 5
+    alike_m: float = 0.3
 
 
 def direction_changes(
@@ -57,22 +55,28 @@ def direction_changes(
     return changes / steps if steps >= chosen.fewest else float("nan")
 
 
-def as_scanned(layers: Layers, main: NDArray[np.float64]) -> Background:
+def as_scanned(
+    layers: Layers, main: NDArray[np.float64], parameters: TreeParameters | None = None
+) -> Background:
     """The nearest points as they are: nothing is taken out, nothing filled.
 
     Beams between two of the scanner's that met the same thing are joined, and told as filled: scans
     are coarser than the depth image.
     """
-    depth = _between_beams(_between_beams(layers.first, 0), 1)
+    chosen = parameters or TreeParameters()
+    depth = _between_beams(_between_beams(layers.first, 0, chosen), 1, chosen)
     known = np.isfinite(depth)
     source = np.where(known, Source.FILLED, Source.NOTHING).astype(np.uint8)
     source[np.isfinite(layers.first)] = Source.MEASURED
-    ground = np.isfinite(layers.background) & ~layers.wall & (np.abs(depth - layers.background) < _ALIKE_M)
+    ground = np.isfinite(layers.background) & ~layers.wall
+    ground &= np.abs(depth - layers.background) < chosen.alike_m
     foot = np.argmax(known & ~ground, axis=0)
     return Background(depth, source, known & ~ground, main, foot)
 
 
-def _between_beams(depth: NDArray[np.float32], axis: int) -> NDArray[np.float32]:
+def _between_beams(
+    depth: NDArray[np.float32], axis: int, chosen: TreeParameters
+) -> NDArray[np.float32]:
     """Short gaps along columns (0) or rows (1) whose ends are alike, by straight lines."""
     lines = np.moveaxis(depth, axis, 1)
     known = np.isfinite(lines)
@@ -80,11 +84,12 @@ def _between_beams(depth: NDArray[np.float32], axis: int) -> NDArray[np.float32]
     before = np.maximum.accumulate(np.where(known, place, -1), axis=1)
     after = np.where(known, place, lines.shape[1])[:, ::-1]
     after = np.minimum.accumulate(after, axis=1)[:, ::-1]
-    inside = (before >= 0) & (after < lines.shape[1]) & (after - before <= _JOINED + 1) & ~known
+    inside = (before >= 0) & (after < lines.shape[1]) & ~known
+    inside &= after - before <= chosen.joined + 1
     low, high = np.maximum(before, 0), np.minimum(after, lines.shape[1] - 1)
     one, two = np.take_along_axis(lines, low, axis=1), np.take_along_axis(lines, high, axis=1)
     share = (place - before) / np.maximum(after - before, 1)
     with np.errstate(invalid="ignore"):
-        inside &= np.abs(one - two) < _ALIKE_M * (1.0 + np.nan_to_num(one) / 10.0)
+        inside &= np.abs(one - two) < chosen.alike_m * (1.0 + np.nan_to_num(one) / 10.0)
     joined = np.where(inside, one + share * (two - one), lines)
     return np.ascontiguousarray(np.moveaxis(joined, 1, axis).astype(np.float32))

@@ -47,7 +47,7 @@ class StreetCamera:
     focal_px: float = 500.0
     height_m: float = 3.6
     spacing_m: float = 1.0
-    jitter_s: float = 0.005
+    jitter_s: float = 0.002
     noise: float = 1.5
     exposure: float = 0.01
 

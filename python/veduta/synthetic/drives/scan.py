@@ -57,10 +57,16 @@ class DriveScans:
     level_ranges: NDArray[np.float32] | None = None
 
 
-def scan_street(street: Street, options: TruckOptions, seed: int) -> DriveScans:
-    """All scans of a drive along a street."""
+def scan_street(
+    street: Street,
+    options: TruckOptions,
+    seed: int,
+    part_m: tuple[float, float] | None = None,
+) -> DriveScans:
+    """All scans of a drive along a street, or those of a part of it."""
     random = np.random.default_rng(seed)
-    y = np.arange(0.0, street.length_m, options.spacing_m)
+    low, high = part_m or (0.0, street.length_m)
+    y = np.arange(low, high, options.spacing_m)
     y = y[random.uniform(size=len(y)) >= options.dropped]
     poses = poses_at(y, options)
     angles = np.deg2rad(np.arange(-90.0, 90.0 + 1e-9, options.beam_step_deg))
