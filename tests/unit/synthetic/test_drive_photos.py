@@ -63,14 +63,14 @@ def test_windows_are_dark_where_they_stand(street: Street, photo: StreetPhoto) -
     """A quarter of each window lies below its bars, and is glass or a curtain."""
     middle = street.panes.mean(axis=1)
     middle[:, 0] += 0.15
-    at = _projected(middle + [0.0, 0.2, -0.3])
+    at = _projected(middle + np.array([0.0, 0.2, -0.3]))
     seen = _inside(at)
     assert seen.sum() > 6
     front = photo.front[at[seen, 1], at[seen, 0]]
     light = photo.behind[at[seen, 1], at[seen, 0]].mean(axis=1)
     assert front.mean() > 0.9  # a balcony may stand before one
     assert np.median(light) < 110
-    beside = _projected(middle + [0.0, 1.1, 0.0])
+    beside = _projected(middle + np.array([0.0, 1.1, 0.0]))
     kept = _inside(beside)
     assert np.median(photo.behind[beside[kept, 1], beside[kept, 0]].mean(axis=1)) > 110
 
