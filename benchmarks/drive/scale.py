@@ -21,7 +21,7 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -151,10 +151,10 @@ def _joined(pieces: Path, count: int, truck: TruckOptions) -> DriveScans:
         with np.load(pieces / f"{number:04d}.npz") as held:
             parts.append({name: held[name] for name in ARRAYS})
     joined = {name: np.concatenate([part[name] for part in parts]) for name in ARRAYS}
-    joined["angles_rad"] = parts[0]["angles_rad"]
-    empty = {"kind": np.zeros((0, 0), np.uint8), "facade_m": np.zeros((0, 0))}
-    given = joined | empty | {"options": truck}
-    return DriveScans(**{field.name: given[field.name] for field in fields(DriveScans)})
+    return DriveScans(
+        joined["times_s"], joined["world_from_vehicle"], parts[0]["angles_rad"], joined["ranges"],
+        np.zeros((0, 0), np.uint8), np.zeros((0, 0)), truck, joined["level_ranges"],
+    )  # fmt: skip
 
 
 def measured(log: Path, out: Path) -> None:
