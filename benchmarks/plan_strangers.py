@@ -32,12 +32,14 @@ from veduta.synthetic.plans.canvas import Image as Picture
 from veduta.synthetic.plans.measured import measured_sheet
 from veduta.synthetic.plans.strangers import strangers_sheet
 from veduta.synthetic.plans.truth_file import SheetTruth
+from veduta.synthetic.plans.working_drawing import working_drawing
 
 FAMILIES: Mapping[str, Callable[[int], tuple[Picture, list[SheetTruth]]]] = {
     "plot": lambda seed: strangers_sheet(seed, "plot"),
     "storeys": lambda seed: strangers_sheet(seed, "storeys"),
     "brochure": brochure_page,
     "measured": measured_sheet,
+    "working": working_drawing,
 }
 SEEDS = range(31_000, 31_012)
 TOLERANCE = 0.01

@@ -93,7 +93,8 @@ def _drawn(
 
 def slides(seen: Evidence) -> bool:
     """Whether two panels are drawn that slide past each other."""
-    return seen.step != 0.0 and any(abs(line) < CENTRED for line in seen.lines)
+    centred = any(abs(line) < CENTRED for line in seen.lines)
+    return seen.step != 0.0 and (centred or (seen.leaf_lines and not seen.inner))
 
 
 def window_type(seen: Evidence) -> OpeningType:

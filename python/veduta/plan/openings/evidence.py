@@ -16,7 +16,14 @@ from veduta.plan.openings.leaves import (
     find_folds,
     leaf_thickness,
 )
-from veduta.plan.openings.lines import AT_FACE, full_lines, panel_step, pocket_share, shade
+from veduta.plan.openings.lines import (
+    AT_FACE,
+    full_lines,
+    leaf_lines,
+    panel_step,
+    pocket_share,
+    shade,
+)
 from veduta.plan.openings.strip import Sheet, cut_strip
 
 SURE_ARC = 0.85
@@ -29,7 +36,7 @@ class Evidence:
     ink between the faces above that beside the wall; `shade`: the same of the palest row;
     `empty`: the share without ink; `step`: panels side by side (see `panel_step`); `pocket`: the
     way through beside a pocket; arcs, chords and folds best first; `leaf_px`: how thick the leaf
-    of the best arc is drawn, 0 without one.
+    of the best arc is drawn, 0 without one; `leaf_lines`: a line along each half, beside each other.
     """
 
     lines: tuple[float, ...]
@@ -42,6 +49,7 @@ class Evidence:
     chords: tuple[Arc, ...]
     folds: tuple[Fold, ...]
     leaf_px: float
+    leaf_lines: bool = False
 
     @property
     def inner(self) -> tuple[float, ...]:
@@ -74,6 +82,7 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
         chords=find_chords(gap, sheet) if doubtful and not _crossed(lines) else (),
         folds=find_folds(gap, sheet) if doubtful and not _crossed(lines) else (),
         leaf_px=leaf_thickness(arcs[0], sheet) if arcs[0].score >= LEAST_ARC else 0.0,
+        leaf_lines=leaf_lines(strip),
     )
 
 

@@ -82,6 +82,21 @@ def panel_step(strip: Strip) -> float:
     return step / strip.half_px
 
 
+def leaf_lines(strip: Strip) -> bool:
+    """Whether a line runs along each half of an opening, and those of both lie beside each other.
+
+    Thin leaves that slide past each other overlap by a little; neither line goes all the way.
+    """
+    count = strip.faint.shape[1]
+    near = np.abs(strip.steps) <= max(AT_FACE * strip.half_px, 2.0)
+    halves = (strip.faint[:, : round(0.44 * count)], strip.faint[:, round(0.56 * count) :])
+    first, second = (half[near].mean(axis=1) >= LINE_COVERAGE for half in halves)
+    own, other = (
+        (one & ~rest).any() for one, rest in ((first, second), (second, first))
+    )
+    return bool(own and other)
+
+
 def pocket_share(strip: Strip) -> tuple[float, float] | None:
     """Where the way through is, as shares of the strip, if a leaf slides into the wall beside it.
 

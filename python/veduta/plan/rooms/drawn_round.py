@@ -20,6 +20,7 @@ from shapely.geometry import LineString, Point, Polygon
 from veduta.geometry.arcs import Arc, bulge_through
 from veduta.plan.document import WallDrawing
 from veduta.plan.openings.lines import runs
+from veduta.plan.rooms.levelled import levelled
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.bows import look
 from veduta.plan.walls.find import Found
@@ -126,7 +127,7 @@ def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Point
         middle = _middle(face, room, thick)
         if middle is None or deep < THINNEST * found.thickness.least_px:
             continue
-        line = _hooked(middle, axes, thick)
+        line = levelled(_hooked(middle, axes, thick), axes, thick)
         if min(LineString(one).length for one in (middle, line)) < LEAST * thin_px:
             continue
         walls += [Axis(piece, (), "inferred") for piece in _pieces(line, thick, drawing)]
@@ -154,7 +155,7 @@ def thin_outline(
         middle = _middle(face, whole, found.thin_px)
         if middle is None:
             continue
-        line = _hooked(middle, axes, found.thin_px)
+        line = levelled(_hooked(middle, axes, found.thin_px), axes, found.thin_px)
         if LineString(line).length >= LEAST * found.thin_px:
             pieces = _pieces(line, found.thin_px, drawing)
             walls += [Axis(piece, (), "inferred") for piece in pieces]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from veduta.plan.drawn import Cleaned
 from veduta.plan.walls.blobs import without_blobs
+from veduta.plan.walls.breasts import without_breasts
 from veduta.plan.walls.curved import curved_pieces, lies_in
 from veduta.plan.walls.jogs import jogs
 from veduta.plan.walls.join import joined
@@ -74,6 +75,8 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
     if drawing == "single-line":
         # Tracks are whole pixels wide, which is much of a line; the measured width judges later.
         least_px -= 0.5
+    elif not known:
+        solid, _ = without_breasts(solid, thickness)
     curved, tracks = curved_pieces(find_tracks(solid), solid, least_px, drawing)
     pieces = straight_pieces(tracks, least_px, drawing)
     if len(pieces) > MOST_PIECES:

@@ -19,7 +19,7 @@ from shapely.geometry.base import BaseGeometry
 
 from veduta.synthetic.plans.bodies import solid_walls, whole_walls
 from veduta.synthetic.plans.canvas import Canvas, Colour, Image
-from veduta.synthetic.plans.house import Opening, Room, Stairs, Storey, Use, Wall
+from veduta.synthetic.plans.house import Fitting, Opening, Room, Stairs, Storey, Use, Wall
 from veduta.synthetic.plans.places import place_of
 from veduta.synthetic.plans.sanitary import basin, bath, bed, closet, counter
 from veduta.synthetic.plans.terraced import Terrace, terraced_house
@@ -67,10 +67,11 @@ def brochure_page(seed: int) -> tuple[Image, list[SheetTruth]]:
     )  # fmt: skip
     house, size = terraced_house(seed)
     names = stream(seed, "brochure names")
-    drawn = [_storey(one, size, page, names) for one in house.storeys]
+    made = [_storey(one, size, page, names) for one in house.storeys]
+    drawn = [canvas for canvas, _ in made]
     sheet, corners = _laid_out(drawn, page, rng)
     truths = []
-    for storey, canvas, corner in zip(house.storeys, drawn, corners, strict=True):
+    for storey, (canvas, fittings), corner in zip(house.storeys, made, corners, strict=True):
         move = np.eye(3)
         move[:2, 2] = corner
         truths.append(
@@ -85,12 +86,15 @@ def brochure_page(seed: int) -> tuple[Image, list[SheetTruth]]:
                 says_scale=True,
                 dpi=None,
                 storey=storey,
+                fittings=fittings,
             )
         )
     return sheet, truths
 
 
-def _storey(storey: Storey, size: Terrace, page: Page, rng: np.random.Generator) -> Canvas:
+def _storey(
+    storey: Storey, size: Terrace, page: Page, rng: np.random.Generator
+) -> tuple[Canvas, tuple[Fitting, ...]]:
     left, bottom, right, top = whole_walls(storey.walls).bounds
     bounds = (left - 0.7, bottom - 1.0, right + 0.7, top + 0.7)
     canvas = Canvas(bounds, page.metres_per_px, (255, 255, 255))
@@ -111,8 +115,7 @@ def _storey(storey: Storey, size: Terrace, page: Page, rng: np.random.Generator)
             _door(canvas, wall, opening, page)
     for flight in storey.stairs:
         _stairs(canvas, flight, page)
-    for room in storey.rooms:
-        _fittings(canvas, room, page)
+    fittings = [one for room in storey.rooms for one in _fittings(canvas, room, page)]
     _labels(canvas, storey, page, rng)
     area = sum(room.area_m2 for room in storey.rooms)
     middle = (left + right) / 2.0
@@ -120,7 +123,7 @@ def _storey(storey: Storey, size: Terrace, page: Page, rng: np.random.Generator)
     canvas.text(TITLES[storey.number], (middle, bottom - 0.4), height, "sans", INK, 700)
     total = f"{area:.1f} SQ.M. ({area / FOOT_M**2:.0f} SQ.FT.)"
     canvas.text(total, (middle, bottom - 0.75), 0.7 * height, "sans", INK, 400)
-    return canvas
+    return canvas, tuple(fittings)
 
 
 def squared(storey: Storey, size: Terrace) -> BaseGeometry:
@@ -209,18 +212,21 @@ def _stairs(canvas: Canvas, flight: Stairs, page: Page) -> None:
     canvas.text(word, (middle, foot - way * 0.22), size, "sans", INK, 600)
 
 
-def _fittings(canvas: Canvas, room: Room, page: Page) -> None:
+def _fittings(canvas: Canvas, room: Room, page: Page) -> tuple[Fitting, ...]:
     """What is built in, and beds; nothing else stands in a page of an agent."""
     left, bottom, right, top = Polygon(room.outline_m).bounds
     pen = 0.7 * page.pen_px
     if room.use == "kitchen":
-        counter(canvas, (right, bottom + 0.9, top - 1.0), pen, INK)
-    elif room.use == "bathroom":
-        bath(canvas, (right - 0.75, top - 1.75), pen, INK)
-        basin(canvas, (left + 0.02, top - 0.75), pen, INK)
-        closet(canvas, (left + 0.02, top - 1.45), pen, INK)
-    elif room.use == "bedroom":
-        bed(canvas, (right - 2.9, top - 2.35), pen, INK)
+        return counter(canvas, (right, bottom + 0.9, top - 1.0), pen, INK)
+    if room.use == "bathroom":
+        return (
+            bath(canvas, (right - 0.75, top - 1.75), pen, INK),
+            basin(canvas, (left + 0.02, top - 0.75), pen, INK),
+            closet(canvas, (left + 0.02, top - 1.45), pen, INK),
+        )
+    if room.use == "bedroom":
+        return (bed(canvas, (right - 2.9, top - 2.35), pen, INK),)
+    return ()
 
 
 def _labels(canvas: Canvas, storey: Storey, page: Page, rng: np.random.Generator) -> None:

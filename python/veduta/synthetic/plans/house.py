@@ -91,6 +91,19 @@ class Stairs:
     kind: StairsKind = "straight"
 
 
+FittingKind = Literal[
+    "toilet", "basin", "bathtub", "shower", "washer", "hob", "kitchen-sink", "bed"
+]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Fitting:
+    """What is drawn in a room and stays there: an upright rectangle, left, bottom, right, top."""
+
+    kind: FittingKind
+    box_m: tuple[float, float, float, float]
+
+
 @dataclass(frozen=True)
 class Storey:
     """One floor, the ground floor first."""

@@ -20,7 +20,7 @@ from shapely.geometry.base import BaseGeometry
 from veduta.synthetic.plans.bodies import solid_walls, whole_walls
 from veduta.synthetic.plans.canvas import Canvas, Colour, Image
 from veduta.synthetic.plans.cottage import Cottage, cottage
-from veduta.synthetic.plans.house import Opening, Storey, Use, Wall
+from veduta.synthetic.plans.house import Fitting, Opening, Storey, Use, Wall
 from veduta.synthetic.plans.places import place_of
 from veduta.synthetic.plans.sanitary import basin, bath, bed, closet
 from veduta.synthetic.plans.strangers import unread_line
@@ -63,7 +63,7 @@ def measured_sheet(seed: int) -> tuple[Image, list[SheetTruth]]:
     bounds = (plot[0] - 1.2, plot[1] - 1.6, plot[2] + 1.2, plot[3] + 1.2)
     canvas = Canvas(bounds, sheet.metres_per_px, (252, 251, 247))
     _ground(canvas, plot, storey, sheet, rng)
-    _house(canvas, storey, size, sheet)
+    fittings = _house(canvas, storey, size, sheet)
     _chains(canvas, storey, size, sheet)
     _section(canvas, storey, sheet)
     words = _words(canvas, storey, sheet, seed)
@@ -73,7 +73,7 @@ def measured_sheet(seed: int) -> tuple[Image, list[SheetTruth]]:
         unread_line(picture, (round(x - 3.0 * height), round(y)), height, rng, INK)
     truth = SheetTruth(
         f"measured-{seed:05d}.png", seed, "measured", "measured", ("measured",), "hatched",
-        canvas.px_from_m, True, None, storey,
+        canvas.px_from_m, True, None, storey, fittings,
     )  # fmt: skip
     return _scanned(picture, rng), [truth]
 
@@ -179,7 +179,9 @@ def _squared(storey: Storey, size: Cottage) -> BaseGeometry:
     return unary_union([solid_walls(storey), *ends]).difference(unary_union(outside))
 
 
-def _house(canvas: Canvas, storey: Storey, size: Cottage, sheet: Survey) -> None:
+def _house(
+    canvas: Canvas, storey: Storey, size: Cottage, sheet: Survey
+) -> tuple[Fitting, ...]:
     solid = _squared(storey, size)
     faces = (size.gable / 2.0, size.wide - size.gable / 2.0)
     middle, half = size.deep / 2.0, BREAST_M[0] / 2.0
@@ -199,15 +201,22 @@ def _house(canvas: Canvas, storey: Storey, size: Cottage, sheet: Survey) -> None
     for opening in storey.openings:
         wall = storey.wall(opening.wall)
         (_window if opening.kind == "window" else _door)(canvas, wall, opening, sheet)
-    pen = 0.7 * sheet.pen_px
+    return _fittings(canvas, storey, 0.7 * sheet.pen_px)
+
+
+def _fittings(canvas: Canvas, storey: Storey, pen: float) -> tuple[Fitting, ...]:
+    fittings: list[Fitting] = []
     for room in storey.rooms:
         left, _, right, top = Polygon(room.outline_m).bounds
         if room.use == "bathroom":
-            bath(canvas, (right - 0.74, top - 1.74), pen, INK)
-            closet(canvas, (left + 0.02, top - 0.6), pen, INK)
-            basin(canvas, (left + 0.02, top - 1.3), pen, INK)
+            fittings += [
+                bath(canvas, (right - 0.74, top - 1.74), pen, INK),
+                closet(canvas, (left + 0.02, top - 0.6), pen, INK),
+                basin(canvas, (left + 0.02, top - 1.3), pen, INK),
+            ]
         elif room.use == "bedroom" and right - left > 3.0:
-            bed(canvas, (left + 0.1, top - 2.02), pen, INK)
+            fittings.append(bed(canvas, (left + 0.1, top - 2.02), pen, INK))
+    return tuple(fittings)
 
 
 def _window(canvas: Canvas, wall: Wall, opening: Opening, sheet: Survey) -> None:

@@ -1,4 +1,7 @@
-"""Baths, basins, toilets, kitchens and beds as drawn by hand: rounded, with taps and drains."""
+"""Baths, basins, toilets, kitchens and beds as drawn by hand: rounded, with taps and drains.
+
+Each says what it drew, so that a truth of fittings is what stands on the sheet.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,12 @@ import numpy as np
 from shapely.geometry import Point, box
 
 from veduta.synthetic.plans.canvas import Canvas, Colour
+from veduta.synthetic.plans.house import Fitting
 
 Spot = tuple[float, float]
 
 
-def bath(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
+def bath(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> Fitting:
     """0.72 by 1.7 m with its head at the top; `at` is the lower left corner in metres."""
     x, y = at
     canvas.outline(box(x, y, x + 0.72, y + 1.7), pen_px, ink)
@@ -21,9 +25,10 @@ def bath(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
     canvas.outline(Point(x + 0.36, y + 1.46).buffer(0.04), pen_px, ink)
     for side in (0.3, 0.42):
         canvas.outline(Point(x + side, y + 1.64).buffer(0.025), pen_px, ink)
+    return Fitting("bathtub", (x, y, x + 0.72, y + 1.7))
 
 
-def basin(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
+def basin(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> Fitting:
     """0.42 deep and 0.55 wide on a wall at its left."""
     x, y = at
     half = [
@@ -33,9 +38,10 @@ def basin(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
     canvas.line([(x, y), *half, (x, y + 0.55)], pen_px, ink, closed=True)
     canvas.outline(Point(x + 0.2, y + 0.275).buffer(0.13), pen_px, ink)
     canvas.outline(Point(x + 0.05, y + 0.275).buffer(0.02), pen_px, ink)
+    return Fitting("basin", (x, y, x + 0.42, y + 0.55))
 
 
-def closet(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
+def closet(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> Fitting:
     """A cistern on a wall at its left, and the bowl before it."""
     x, y = at
     canvas.outline(box(x, y, x + 0.18, y + 0.42), pen_px, ink)
@@ -43,16 +49,19 @@ def closet(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
     bowl = np.column_stack([x + 0.4 + 0.24 * np.cos(turn), y + 0.21 + 0.18 * np.sin(turn)])
     canvas.line(bowl, pen_px, ink, closed=True)
     canvas.line(0.7 * bowl + 0.3 * np.array([x + 0.42, y + 0.21]), pen_px, ink, closed=True)
+    return Fitting("toilet", (x, y, x + 0.64, y + 0.42))
 
 
-def counter(canvas: Canvas, run: tuple[float, float, float], pen_px: float, ink: Colour) -> None:
+def counter(
+    canvas: Canvas, run: tuple[float, float, float], pen_px: float, ink: Colour
+) -> tuple[Fitting, ...]:
     """Along a wall at its right from one height to another, with a hob and a sink in it.
 
     `run` is the wall's face and the two ends in metres.
     """
     face, low, high = run
     if high - low < 1.9:
-        return
+        return ()
     canvas.outline(box(face - 0.6, low, face, high), pen_px, ink)
     hob = (face - 0.3, low + 0.45)
     canvas.outline(box(hob[0] - 0.25, hob[1] - 0.28, hob[0] + 0.25, hob[1] + 0.28), pen_px, ink)
@@ -63,9 +72,13 @@ def counter(canvas: Canvas, run: tuple[float, float, float], pen_px: float, ink:
     canvas.outline(bowl, pen_px, ink)
     for rib in np.arange(high - 1.2, high - 0.84, 0.08):
         canvas.line([(face - 0.48, rib), (face - 0.12, rib)], 0.7 * pen_px, ink)
+    return (
+        Fitting("hob", (hob[0] - 0.25, hob[1] - 0.28, hob[0] + 0.25, hob[1] + 0.28)),
+        Fitting("kitchen-sink", (face - 0.5, high - 1.2, face - 0.1, high - 0.29)),
+    )
 
 
-def bed(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
+def bed(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> Fitting:
     """1.4 by 2 m with its head at the top, two pillows and a cover that is turned back."""
     x, y = at
     canvas.outline(box(x, y, x + 1.4, y + 2.0), pen_px, ink)
@@ -73,3 +86,4 @@ def bed(canvas: Canvas, at: Spot, pen_px: float, ink: Colour) -> None:
         canvas.outline(box(left + 0.05, y + 1.62, left + 0.48, y + 1.84).buffer(0.05), pen_px, ink)
     canvas.line([(x, y + 1.35), (x + 1.4, y + 1.35)], pen_px, ink)
     canvas.line([(x + 0.9, y + 1.35), (x + 1.4, y + 0.95)], pen_px, ink)
+    return Fitting("bed", (x, y, x + 1.4, y + 2.0))

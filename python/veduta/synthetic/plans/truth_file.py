@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.synthetic.plans.house import Opening, Room, Stairs, Storey, Wall
+from veduta.synthetic.plans.house import Fitting, Opening, Room, Stairs, Storey, Wall
 
 SCHEMA = "veduta/plan-truth"
 VERSION = 1
@@ -22,6 +22,7 @@ class SheetTruth:
     `px_from_m` (3, 3) is the affine from the plan frame (metres, y up) to pixels of the picture,
     x right and y down, origin at the upper left corner of the upper left pixel.
     `dpi` is what the file says of its resolution, where the sheet bears a ratio such as 1:100.
+    `fittings` is None where nobody kept what was drawn in the rooms.
     """
 
     file: str
@@ -34,6 +35,7 @@ class SheetTruth:
     says_scale: bool
     dpi: float | None
     storey: Storey
+    fittings: tuple[Fitting, ...] | None = None
 
     @property
     def metres_per_px(self) -> float:
@@ -79,6 +81,7 @@ def from_json(fields: Mapping[str, Any]) -> SheetTruth:
             tuple(Room(**_outline(room)) for room in storey["rooms"]),
             tuple(_stairs(flight) for flight in storey["stairs"]),
         ),
+        _fittings(fields.get("fittings")),
     )
 
 
@@ -91,6 +94,12 @@ def _stairs(fields: Mapping[str, Any]) -> Stairs:
     rings = tuple(tuple(map(tuple, ring)) for ring in fields.get("steps_m", ()))
     path = tuple(map(tuple, fields.get("path_m", ())))
     return Stairs(**{**_pairs(_outline(fields), "up"), "steps_m": rings, "path_m": path})
+
+
+def _fittings(found: Sequence[Mapping[str, Any]] | None) -> tuple[Fitting, ...] | None:
+    if found is None:
+        return None
+    return tuple(Fitting(**_pairs(fields, "box_m")) for fields in found)
 
 
 def _outline(fields: Mapping[str, Any]) -> dict[str, Any]:
