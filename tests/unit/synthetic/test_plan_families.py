@@ -13,9 +13,10 @@ from veduta.synthetic.plans.brochure import brochure_page
 from veduta.synthetic.plans.canvas import Image
 from veduta.synthetic.plans.measured import measured_sheet
 from veduta.synthetic.plans.truth_file import SheetTruth
+from veduta.synthetic.plans.working_drawing import working_drawing
 
 Make = Callable[[int], tuple[Image, list[SheetTruth]]]
-MAKERS = (brochure_page, measured_sheet)
+MAKERS = (brochure_page, measured_sheet, working_drawing)
 
 
 @pytest.mark.parametrize("make", MAKERS)

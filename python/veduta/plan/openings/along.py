@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
+from scipy.ndimage import median_filter, uniform_filter1d
 from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.openings.classify import judge
@@ -29,8 +29,15 @@ from veduta.plan.walls.join import SAME_THICKNESS
 ROWS = np.linspace(-1.2, 1.2, 13)
 """Where across the wall ink is compared, in half thicknesses."""
 
+RIM = 0.7
+"""What lies farther out, in half thicknesses, is the rim of a wall."""
+
 CHANGE = 0.1
 """A column differs from a wall's if its ink does by this part of the wall's darkest row."""
+
+PALER, PALER_RIMMED, RIMMED = 0.75, 0.55, 0.85
+"""A wall may be paler than others by this factor in all of its rows, as ink is uneven: more so one
+with a rim, whose inner rows are so much paler than it, as a shaded pane without one is all pale."""
 
 SMOOTH_PX = 5
 JOINED_PX = 3
@@ -133,6 +140,8 @@ def _across(axis: Axis, sheet: Sheet, thick_px: float) -> _Across:
     line = axis.line
     strip = cut_strip(line.start, line.end, thick_px, sheet, 0.0, line.bulge)
     own = profile(strip, _middle(strip) if line.drawing == "single-line" else 0.0)
+    if line.drawing == "hatched":  # strokes and paper between them together are the wall
+        own = uniform_filter1d(own, max(SMOOTH_PX, round(thick_px)), axis=1, mode="nearest")
     return _Across(own, _without(axis, own))
 
 
@@ -221,7 +230,10 @@ def changed_stretches(
     `bars`: whether a broader line counts, which in walls of some breadth is a bench beside them.
     """
     level = max(float(usual.max()), 0.1)
-    changed = np.abs(own - usual[:, None]).mean(axis=0) > CHANGE * level
+    rimmed = float(usual[np.abs(ROWS) <= RIM].min()) < RIMMED * level
+    palest = PALER_RIMMED if rimmed else PALER
+    tone = np.clip(usual @ own / max(float(usual @ usual), 1e-9), palest, 1.0 / palest)
+    changed = np.abs(own - tone * usual[:, None]).mean(axis=0) > CHANGE * level
     starts, ends = runs(~changed)
     for low, high in zip(starts, ends, strict=True):
         if high - low <= JOINED_PX and low > 0 and high < len(changed):
@@ -243,7 +255,7 @@ def _pierced(inside: NDArray[np.float64], usual: NDArray[np.float64], level: flo
 
     What differs beside a filled wall alone is a bench, a counter, or a face that runs askew.
     """
-    within = np.abs(ROWS) <= 0.7
+    within = np.abs(ROWS) <= RIM
     if float(usual[within].min()) < SOLID * level:
         return True
     rows = np.median(inside[within], axis=1)

@@ -36,7 +36,8 @@ class Evidence:
     ink between the faces above that beside the wall; `shade`: the same of the palest row;
     `empty`: the share without ink; `step`: panels side by side (see `panel_step`); `pocket`: the
     way through beside a pocket; arcs, chords and folds best first; `leaf_px`: how thick the leaf
-    of the best arc is drawn, 0 without one; `leaf_lines`: a line along each half, beside each other.
+    of the best arc is drawn, 0 without one; `leaf_lines`: a line along each half of it, which lie
+    beside each other.
     """
 
     lines: tuple[float, ...]

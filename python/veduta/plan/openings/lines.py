@@ -91,9 +91,7 @@ def leaf_lines(strip: Strip) -> bool:
     near = np.abs(strip.steps) <= max(AT_FACE * strip.half_px, 2.0)
     halves = (strip.faint[:, : round(0.44 * count)], strip.faint[:, round(0.56 * count) :])
     first, second = (half[near].mean(axis=1) >= LINE_COVERAGE for half in halves)
-    own, other = (
-        (one & ~rest).any() for one, rest in ((first, second), (second, first))
-    )
+    own, other = ((one & ~rest).any() for one, rest in ((first, second), (second, first)))
     return bool(own and other)
 
 

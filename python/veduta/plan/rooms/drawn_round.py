@@ -20,7 +20,7 @@ from shapely.geometry import LineString, Point, Polygon
 from veduta.geometry.arcs import Arc, bulge_through
 from veduta.plan.document import WallDrawing
 from veduta.plan.openings.lines import runs
-from veduta.plan.rooms.levelled import levelled
+from veduta.plan.rooms.levelled import between_stubs, levelled
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.bows import look
 from veduta.plan.walls.find import Found
@@ -127,7 +127,12 @@ def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Point
         middle = _middle(face, room, thick)
         if middle is None or deep < THINNEST * found.thickness.least_px:
             continue
-        line = levelled(_hooked(middle, axes, thick), axes, thick)
+        level = levelled(middle, axes, thick)
+        limits = (THINNEST * found.thickness.least_px, thickest)
+        stubs = between_stubs(level, found.solid, limits, HOOK * found.thin_px)
+        if stubs is not None:
+            middle, thick = stubs
+        line = _laid(middle, axes, thick)
         if min(LineString(one).length for one in (middle, line)) < LEAST * thin_px:
             continue
         walls += [Axis(piece, (), "inferred") for piece in _pieces(line, thick, drawing)]
@@ -155,7 +160,7 @@ def thin_outline(
         middle = _middle(face, whole, found.thin_px)
         if middle is None:
             continue
-        line = levelled(_hooked(middle, axes, found.thin_px), axes, found.thin_px)
+        line = _laid(middle, axes, found.thin_px)
         if LineString(line).length >= LEAST * found.thin_px:
             pieces = _pieces(line, found.thin_px, drawing)
             walls += [Axis(piece, (), "inferred") for piece in pieces]
@@ -307,6 +312,12 @@ def _like_the_nearest(
     )
     alike = abs(nearest.thickness_px - deep_px) <= AS_THICK * nearest.thickness_px + 3.0
     return (nearest.thickness_px if alike else deep_px), nearest.drawing
+
+
+def _laid(middle: Points, axes: Sequence[Axis], thick_px: float) -> Points:
+    """A line with its ends on known walls, upright where it nearly is."""
+    hooked = _hooked(levelled(middle, axes, thick_px), axes, thick_px)
+    return levelled(hooked, axes, thick_px)
 
 
 def _hooked(points: Points, axes: Sequence[Axis], thick_px: float) -> Points:

@@ -133,5 +133,3 @@ def _clear(mask: NDArray[np.bool_], band: Band, low: float, high: float) -> None
     if high - low < 1.0:
         return
     mask[_window(band.steep, (band.start - 1.0, band.end + 1.0), (low, high))] = False
-
-

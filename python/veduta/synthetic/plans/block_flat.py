@@ -119,9 +119,7 @@ def _openings(walls: tuple[Wall, ...], rng: np.random.Generator) -> list[Opening
     for room, width in (("r1", 1.51), ("r4", 1.01), ("r5", 0.635), ("r6", 1.26), ("r7", 1.01)):
         wall = _longest(walls, {room, None}, lying=True)
         along = round((curves.wall_length(wall) - width) * float(rng.uniform(0.42, 0.58)), 3)
-        found.append(
-            Opening(f"n{len(found)}", wall.id, "window", "double-line", along, width)
-        )
+        found.append(Opening(f"n{len(found)}", wall.id, "window", "double-line", along, width))
     return found
 
 

@@ -179,9 +179,7 @@ def _squared(storey: Storey, size: Cottage) -> BaseGeometry:
     return unary_union([solid_walls(storey), *ends]).difference(unary_union(outside))
 
 
-def _house(
-    canvas: Canvas, storey: Storey, size: Cottage, sheet: Survey
-) -> tuple[Fitting, ...]:
+def _house(canvas: Canvas, storey: Storey, size: Cottage, sheet: Survey) -> tuple[Fitting, ...]:
     solid = _squared(storey, size)
     faces = (size.gable / 2.0, size.wide - size.gable / 2.0)
     middle, half = size.deep / 2.0, BREAST_M[0] / 2.0
