@@ -15,6 +15,7 @@ from veduta.plan.names.strays import stray_names
 from veduta.plan.remarks import closed_in, plans_apart
 from veduta.plan.scale.estimate import scale_notes
 from veduta.plan.tour.find import Tour
+from veduta.plan.upper_floor import upper_floor_doubts
 from veduta.run.report import counted
 
 _SHOWN = 5
@@ -37,7 +38,8 @@ def doubts(document: PlanDocument, tour: Tour | None) -> list[str]:
             *storey.doubts,
         )
         said += [of + note for note in notes]
-    return [*said, *unlike_storeys(document.storeys), *(() if tour is None else tour.notes)]
+    said += [*upper_floor_doubts(document), *unlike_storeys(document.storeys)]
+    return [*said, *(() if tour is None else tour.notes)]
 
 
 def position_notes(sheet: Sheet) -> list[str]:

@@ -40,6 +40,7 @@ from veduta.plan.steps import (
 )
 from veduta.plan.surroundings.panorama import Pictures, given_pictures, kept_pictures
 from veduta.plan.surroundings.site import check_site, site_of
+from veduta.plan.upper_floor import upper_floor_options
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.plan.writing import result_of, write_result
 from veduta.run.beside import Beside
@@ -52,7 +53,7 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "30"
+VERSION = "31"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
@@ -258,7 +259,7 @@ def _make(
         notes = [*given.notes, *notes, *finished.notes]
         document = sited(finished.document, options.site, given.panorama)
         document = with_flat(document, options.house, by_text=call.kind == "drawings")
-        built = flat_options(document, options.house)
+        built = upper_floor_options(document, flat_options(document, options.house))
         otherwise = stays and (document != read or bool(options.scale.scale))
         if otherwise:
             notes = [*notes, UNWRITTEN]

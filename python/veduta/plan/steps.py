@@ -20,6 +20,7 @@ from veduta.plan.photos.finish import Finished, load_pictures, with_photos
 from veduta.plan.photos.given import RoomPhoto
 from veduta.plan.sheets import Pixels, load_sheets
 from veduta.plan.tour.find import Tour, find_tour
+from veduta.plan.upper_floor import upper_floor
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
 
@@ -142,7 +143,8 @@ def tour_step(
         return None
     progress("tour", 0.0)
     with timed_step(steps, "tour") as step:
-        tour = find_tour(house, options.tour_speed, indoors=options.flat)
+        above = upper_floor([space.storey for space in house.spaces]) is not None
+        tour = find_tour(house, options.tour_speed, indoors=options.flat or above)
         if tour is None:
             step.rejected.append("there is no tour: no room has a floor on which one can stand")
             return None

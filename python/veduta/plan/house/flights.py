@@ -18,6 +18,7 @@ from shapely.ops import unary_union
 
 from veduta.plan.document import Stairs, Storey
 from veduta.plan.house.headroom import first_in_well
+from veduta.plan.house.shown_twice import shown_twice
 from veduta.plan.house.space import Space, solid_region, space_of
 from veduta.plan.house.turning import TurningFlight, turning_flight
 
@@ -116,10 +117,10 @@ def stairwells(spaces: Sequence[Space], slab_m: float) -> list[Stairwell]:
 
 def _stairwell(lower: Space, upper: Space, slab_m: float) -> Stairwell:
     own = lower.storey.stairs
-    drawn = [*own] or [*upper.storey.stairs]
+    both, notes = shown_twice(own, upper.storey.stairs)
+    drawn = both or [*upper.storey.stairs]
     rise = upper.storey.elevation_m - lower.storey.elevation_m
     flights: list[AnyFlight] = []
-    notes: list[str] = []
     for one in drawn:
         flight = turning_flight(one, rise) if one.steps_m else _flight(one, lower, rise)
         if flight is None:

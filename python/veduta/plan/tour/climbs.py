@@ -74,8 +74,22 @@ def _line(flight: AnyFlight) -> NDArray[np.float64]:
 def _blocked(climb: Climb, rise_m: float, lower: Space, upper: Space) -> bool:
     """Whether a wall stands in the way; those above count where a head comes up to them."""
     line = climb.line_m
-    high = line[line[:, 2] > rise_m - HEADROOM_M]
-    ways = [(lower, line), (upper, high)] if len(line) > 2 else [(lower, line), (upper, line)]
+    ways = [(lower, line), (upper, _high(line, rise_m - HEADROOM_M))]
     return any(
-        space.walls.buffer(BODY_M / 2.0).intersects(LineString(way[:, :2])) for space, way in ways
+        space.walls.buffer(BODY_M / 2.0).intersects(LineString(way[:, :2]))
+        for space, way in ways
+        if len(way) > 1
     )
+
+
+def _high(line: NDArray[np.float64], under_m: float) -> NDArray[np.float64]:
+    """What of a climb (n, 3), from its head down, is higher: a room may stand over its foot."""
+    high = [line[-1]]
+    for start, end in zip(line[-2::-1], line[:0:-1], strict=True):
+        if start[2] <= under_m < end[2]:
+            share = float((under_m - start[2]) / (end[2] - start[2]))
+            high.append(start + share * (end - start))
+        if start[2] <= under_m:
+            break
+        high.append(start)
+    return np.array(high)
