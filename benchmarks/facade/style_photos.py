@@ -39,7 +39,7 @@ from veduta.run.errors import NotFoundError  # noqa: E402
 DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
 OPTIONS = FacadeOptions(rectify=RectifyOptions(rectified=True))
 RIGHT = "haussmann"
-STEPS = 150
+STEPS = 60
 CMP_HELD_FROM = 241
 
 

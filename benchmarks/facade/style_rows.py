@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from veduta.facade.style.infer import StyleFound, log_mass
+from veduta.facade.style.infer import Candidate, StyleFound, log_mass
 from veduta.facade.style.likelihood import parts_of
 
 Row = dict[str, str | int | float | bool | None]
@@ -42,9 +42,9 @@ def rows_of(
 
 
 def logs_of(found: StyleFound) -> str:
-    """Of each candidate: ln likelihood and ln prior mass of its best structure, and what of the
-    likelihood is of cells and of elements; under `any` the most that labels of cells can have, and
-    how many elements were seen.
+    """Of each candidate: ln likelihood and ln prior mass of its best structure, what of the
+    likelihood is of cells and of elements, and ln likelihood and cost of it deformed; under `any`
+    the most that labels of cells can have, and how many elements were seen.
     """
     observed = found.chosen.posterior.observed
     rows: dict[str, tuple[float, ...]] = {
@@ -52,12 +52,19 @@ def logs_of(found: StyleFound) -> str:
             round(one.best.log_likelihood, 3),
             round(log_mass(one.posterior.grammar, one.best), 3),
             *(round(part, 3) for part in parts_of(one.best.front, observed)),
+            *_real(one),
         )
         for one in found.candidates
     }
     most = float(observed.ratios.max(axis=0).sum())
     rows["any"] = (round(most, 3), float(sum(len(boxes) for boxes in observed.boxes.values())))
     return json.dumps(rows)
+
+
+def _real(one: Candidate) -> tuple[float, ...]:
+    if one.real is None:
+        return ()
+    return round(one.real.log_likelihood, 3), round(one.real.log_cost, 3)
 
 
 def told(rows: Iterable[Row]) -> list[Row]:

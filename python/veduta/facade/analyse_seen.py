@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
 from veduta.facade.floors import Floors, split_floors
 from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
 from veduta.facade.heads import with_heads
-from veduta.facade.houses import find_party_walls
+from veduta.facade.houses import HouseParameters, find_party_walls, house_spans, storey_of
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.rectify import Rectified
@@ -119,13 +118,8 @@ def analyse_houses(
     steps: list[StepRecord] = []
     front = _look_at(rectified, source, seen, steps, progress)
     with timed_step(steps, "houses") as step:
-        inner, skyline = crop(front.evidence, front.sky, front.sides)
-        left, right = front.sides.left, front.sides.right
-        wall = front.wall[: inner.height, left:right]
-        walls = find_party_walls(inner, skyline, front.between(left, right), wall)
-        step.counts["houses"] = len(walls) + 1
-    borders = [left, *(left + wall.x for wall in walls), right]
-    spans = [replace(front.sides, left=a, right=b) for a, b in pairwise(borders)]
+        spans, doubt = _houses(front)
+        step.counts["houses"] = len(spans)
     try:
         documents, own = _read_each(front, spans, options, steps, progress)
     except NotFoundError as error:
@@ -133,8 +127,46 @@ def analyse_houses(
             raise
         steps[-1].rejected.append(f"houses: one of {len(spans)} is no front ({error})")
         documents, own = [_read(front, front.sides, options, steps, progress)], [[]]
+    if doubt:
+        documents = [one.model_copy(update={"notes": [*one.notes, doubt]}) for one in documents]
     progress("document", 1.0)
     return documents, steps, own
+
+
+def _houses(front: _Front) -> tuple[list[Sides], str]:
+    """Where each house stands, from left to right; and a doubt whether these are all.
+
+    Borders are looked for in the whole picture: what the sides cut off may be a house.
+    """
+    own, sides = HouseParameters(), front.sides
+    elements = front.between(0, front.evidence.width)
+    found = find_party_walls(front.evidence, front.seen, elements, own)
+    windows = [e for e in elements if e.kind == "window"]
+    if found.walls:
+        storey = storey_of(windows)
+        borders = 0, front.evidence.width
+        houses = house_spans(found.walls, windows, borders, storey, own)
+        spans = [_clipped(sides, a, b, own.narrowest * storey) for a, b in houses]
+    else:
+        spans = [sides]
+    unsure = found.doubtful
+    if unsure is None or len(spans) > 1 or not sides.left < unsure.x < sides.right:
+        return spans, ""
+    share = 100 * unsure.x / front.evidence.width
+    return spans, (
+        f"houses: the photo may show several; what is left and right of {share:.0f} % of its width"
+        " differs. --corners, or a crop of each, parts them"
+    )
+
+
+def _clipped(sides: Sides, left: int, right: int, least: float) -> Sides:
+    """The sides of a house; where the picture's own sides cut through it, it ends there."""
+    if left < sides.left < right - least:
+        left = sides.left
+    if left + least < sides.right < right:
+        right = sides.right
+    kept = tuple(r for r in sides.reasons if not r.startswith("sides:"))
+    return replace(sides, left=left, right=right, reasons=kept)
 
 
 def _read_each(

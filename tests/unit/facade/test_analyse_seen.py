@@ -14,7 +14,7 @@ from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import Evidence
 from veduta.facade.eyes import look
 from veduta.facade.eyes.look import WEIGHTS
-from veduta.facade.houses import PartyWall
+from veduta.facade.houses import PartyWall, PartyWalls
 from veduta.facade.options import FacadeOptions
 from veduta.facade.scale import ASSUMED_STOREY
 from veduta.run.errors import NotFoundError
@@ -68,9 +68,9 @@ def test_the_other_houses_have_the_scale_and_basis_of_the_widest(
     high = min(len(left), len(right))
     pixels = np.hstack([left[-high:], right[-high:]])
 
-    def one_wall(evidence: Evidence, *_: object) -> list[PartyWall]:
+    def one_wall(evidence: Evidence, *_: object) -> PartyWalls:
         at = round(evidence.width * left.shape[1] / pixels.shape[1])
-        return [PartyWall(at, 1.0, 1.0, 1.0)]
+        return PartyWalls((PartyWall(at, 0.99),))
 
     monkeypatch.setattr(analyse_seen, "find_party_walls", one_wall)
     source = Source(image="a.png", sha256="", width_px=pixels.shape[1], height_px=high)
@@ -84,6 +84,18 @@ def test_the_other_houses_have_the_scale_and_basis_of_the_widest(
     told = ["floors", "openings", "document"]
     assert sorted([step.name for step in each] for each in own) == [[], told]
     assert [step.name for step in steps] == ["eyes", "extent", "houses", *told]
+
+
+def test_a_border_that_is_not_sure_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    pixels = draw_facade(5).pixels
+
+    def unsure(evidence: Evidence, *_: object) -> PartyWalls:
+        return PartyWalls((), PartyWall(evidence.width // 2, 0.6))
+
+    monkeypatch.setattr(analyse_seen, "find_party_walls", unsure)
+    source = Source(image="a.png", sha256="", width_px=pixels.shape[1], height_px=len(pixels))
+    (document,), _, _ = analyse_seen.analyse_houses(rectified_of(pixels), source, FacadeOptions())
+    assert any("may show several" in note and "50 %" in note for note in document.notes)
 
 
 def test_a_look_is_a_distribution_over_the_whole_picture() -> None:

@@ -6,14 +6,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from veduta.facade.arrangement import GAP_M, Placed, arrange
-from veduta.facade.evidence import Evidence, gather
-from veduta.facade.extent import Skyline
+from veduta.facade.evidence import gather
 from veduta.facade.eyes import SeenElement
 from veduta.facade.house_folders import Beside, beside_line, beside_of
-from veduta.facade.houses import find_party_walls
+from veduta.facade.houses import (
+    HouseParameters,
+    PartyWall,
+    chance_of,
+    house_spans,
+    party_walls_of,
+    storey_of,
+)
+from veduta.facade.party_signs import SIGNS, Fronts, signs_at
 
 HEIGHT, WIDE = 400, 240
 COLOURS = [(205, 180, 140), (150, 190, 160), (180, 120, 90)]
@@ -23,49 +29,52 @@ class Row:
     """Houses beside each other: wall colours, windows, a roof line each."""
 
     def __init__(self, colours: list[int], shifts: list[int], roofs: list[int]) -> None:
-        picture = np.zeros((HEIGHT, WIDE * len(colours), 3), np.uint8)
-        rows = np.zeros(WIDE * len(colours), np.int64)
-        self.elements: list[SeenElement] = []
+        size = HEIGHT, WIDE * len(colours)
+        picture = np.full((*size, 3), 235, np.uint8)
+        kinds = np.zeros((6, *size), np.float32)
+        kinds[4] = 1.0
+        windows: list[SeenElement] = []
         for k, (colour, shift, roof) in enumerate(zip(colours, shifts, roofs, strict=True)):
             span = slice(k * WIDE, (k + 1) * WIDE)
-            picture[:, span] = COLOURS[colour]
-            rows[span] = roof
+            picture[roof:, span] = COLOURS[colour]
+            kinds[4, roof:, span] = 0.0
+            kinds[5, roof : roof + 14, span] = 1.0
+            picture[roof : roof + 14, span] //= 2
             for floor in range(4):
                 for column in range(3):
                     x, y = k * WIDE + 30 + 70 * column, 60 + 80 * floor + shift
                     picture[y : y + 44, x : x + 30] = 40
-                    self.elements.append(SeenElement("window", x, y, x + 30, y + 44, 0.9))
+                    kinds[:, y : y + 44, x : x + 30] = 0.0
+                    kinds[0, y : y + 44, x : x + 30] = 1.0
+                    windows.append(SeenElement("window", x, y, x + 30, y + 44, 0.9))
         noise = np.random.default_rng(1).normal(0, 6, picture.shape)
         pixels = np.clip(picture + noise, 0, 255).astype(np.uint8)
-        self.evidence: Evidence = gather(pixels, np.ones(pixels.shape[:2], np.bool_))
-        scale = self.evidence.px_per_rectified
-        self.elements = [
-            SeenElement(e.kind, e.x0 * scale, e.y0 * scale, e.x1 * scale, e.y1 * scale, e.score)
-            for e in self.elements
-        ]
-        self.wall: NDArray[np.float64] = np.ones((self.evidence.height, self.evidence.width))
-        for e in self.elements:
-            self.wall[round(e.y0) : round(e.y1), round(e.x0) : round(e.x1)] = 0.0
-        places = np.linspace(0, len(rows) - 1, self.evidence.width).round().astype(int)
-        self.skyline = Skyline(np.round(rows[places] * scale).astype(np.int64), 0)
-        self.scale = scale
+        evidence = gather(pixels, np.ones(size, np.bool_))
+        assert evidence.px_per_rectified == 1.0
+        wall = 1.0 - kinds.sum(axis=0)
+        top = (kinds[4] < 0.5).argmax(axis=0).astype(np.float64)
+        self.fronts = Fronts(evidence, wall, kinds, top, tuple(windows), storey_of(windows))
 
-    def found(self) -> list[float]:
-        """Where walls are found, in pixels of the picture."""
-        walls = find_party_walls(self.evidence, self.skyline, self.elements, self.wall)
-        return [wall.x / self.scale for wall in walls]
+    def found(self) -> list[int]:
+        """Where walls are found."""
+        return [wall.x for wall in party_walls_of(self.fronts).walls]
+
+    def signs(self, x: int) -> dict[str, float]:
+        """The signs at a column, by name."""
+        signs = signs_at(self.fronts, x)
+        assert signs is not None
+        return dict(zip(SIGNS, signs.tolist(), strict=True))
 
 
 @pytest.mark.parametrize(
     ("colours", "shifts", "roofs"),
     [
-        ([0, 1], [0, 30], [20, 20]),
-        ([0, 1], [0, 0], [10, 90]),
-        ([0, 0], [0, 30], [10, 90]),
-        ([0, 1, 2], [0, 30, 5], [20, 20, 60]),
+        ([0, 1], [0, 30], [10, 40]),
+        ([0, 1], [0, 30], [10, 10]),
+        ([0, 1, 2], [0, 30, 5], [20, 20, 40]),
     ],
 )
-def test_two_signs_of_three_are_a_party_wall(
+def test_houses_that_differ_are_parted(
     colours: list[int], shifts: list[int], roofs: list[int]
 ) -> None:
     found = Row(colours, shifts, roofs).found()
@@ -76,19 +85,43 @@ def test_two_signs_of_three_are_a_party_wall(
     ("colours", "shifts", "roofs"),
     [
         ([0, 0], [0, 0], [20, 20]),
-        ([0, 1], [0, 0], [20, 20]),  # one house in two colours
-        ([0, 0], [0, 30], [20, 20]),  # a stairwell
-        ([0, 0], [0, 0], [10, 90]),  # a lower wing
+        ([0, 0, 0], [0, 0, 0], [20, 20, 20]),
+        ([0, 0], [0, 0], [10, 40]),  # a lower wing
     ],
 )
-def test_one_sign_alone_is_none(colours: list[int], shifts: list[int], roofs: list[int]) -> None:
+def test_one_house_is_one(colours: list[int], shifts: list[int], roofs: list[int]) -> None:
     assert Row(colours, shifts, roofs).found() == []
 
 
+def test_each_sign_tells_what_it_is_named_after() -> None:
+    plain = Row([0, 0], [0, 0], [20, 20]).signs(WIDE)
+    assert max(plain[name] for name in ("rows", "sizes", "colour", "roof")) < 0.1
+    assert Row([0, 0], [0, 16], [20, 20]).signs(WIDE)["rows"] == pytest.approx(1.0, abs=0.05)
+    assert Row([0, 1], [0, 0], [20, 20]).signs(WIDE)["colour"] > 1.0
+    assert Row([0, 0], [0, 0], [10, 50]).signs(WIDE)["roof"] == pytest.approx(1.0, abs=0.05)
+    shifted = Row([0, 0], [0, 30], [20, 20]).signs(WIDE)
+    assert shifted["lines"] > plain["lines"] + 0.5
+    assert shifted["classes"] > plain["classes"] + 0.1
+
+
+def test_the_edge_of_a_picture_is_no_border() -> None:
+    assert signs_at(Row([0], [0], [20]).fronts, 2) is None
+
+
+def test_the_chance_is_that_of_the_weighted_signs() -> None:
+    own = HouseParameters(weights=(1.0,) + (0.0,) * 8, offset=-1.0, most=2.0)
+    assert chance_of(np.array([1.0, *[0.0] * 8]), own) == pytest.approx(0.5)
+    assert chance_of(np.array([9.0, *[0.0] * 8]), own) == pytest.approx(1 / (1 + np.exp(-1.0)))
+
+
 def test_few_windows_are_no_houses() -> None:
-    row = Row([0, 1], [0, 30], [10, 90])
-    row.elements = row.elements[:6]
-    assert row.found() == []
+    fronts = Row([0, 1], [0, 30], [10, 40]).fronts
+    walls = [PartyWall(WIDE, 0.99)]
+    size = (0, 2 * WIDE)
+    whole = house_spans(walls, fronts.windows, size, fronts.storey)
+    assert whole == [(0, WIDE), (WIDE, 2 * WIDE)]
+    assert house_spans(walls, fronts.windows[:15], size, fronts.storey) == [(0, WIDE)]
+    assert house_spans(walls, fronts.windows[:3], size, fronts.storey) == [size]
 
 
 def test_houses_of_one_photo_stand_wall_to_wall() -> None:
