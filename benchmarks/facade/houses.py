@@ -84,7 +84,7 @@ class Picture:
     @property
     def elements(self) -> list[SeenElement]:
         """The windows."""
-        return [SeenElement("window", *box, 1.0) for box in self.windows.tolist()]
+        return [SeenElement("window", a, b, c, d, 1.0) for a, b, c, d in self.windows.tolist()]
 
     @property
     def truth(self) -> NDArray[np.int64]:

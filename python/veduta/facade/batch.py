@@ -12,6 +12,7 @@ from pydantic import JsonValue
 
 from veduta.facade.arrangement import Placed, Vector, arrange, stand_of
 from veduta.facade.call import Call, Input, Kind, plan_call
+from veduta.facade.document import FacadeDocument
 from veduta.facade.house_folders import beside_kept, beside_of
 from veduta.facade.job import Job, JobResult, memory_of, run_job
 from veduta.facade.label_pictures import labels_note
@@ -307,7 +308,8 @@ def _publish(
         former = folder.record.items.get(source.name)
         stays: list[str] = []
         if folder.standing is Standing.AMENDED and former is not None:
-            summary |= beside_kept(former.summary)
+            main = FacadeDocument.model_validate_json((work / DOCUMENT).read_bytes())
+            summary |= beside_kept(former.summary, main, folder.path / source.name)
             stays = [house.folder for house in beside_of(summary)]
         folder.publish(source.name, key, work, summary, failure, stays)
     elif folder.standing is not Standing.AMENDED:

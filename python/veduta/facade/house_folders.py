@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import cast
 
 from pydantic import JsonValue
 
 from veduta.facade.document import FacadeDocument, House
+from veduta.facade.load import DOCUMENT
 from veduta.place.part import Part
 
 BESIDE = "beside"
@@ -66,7 +68,6 @@ def beside_told(
     """What the summary of a photo says of its other houses; nothing where there are none."""
     if not others:
         return {}
-    scale = main.scale.metres_per_px
     rows: list[JsonValue] = []
     for folder, document, part in others:
         low, high = part.bounds_m
@@ -74,7 +75,7 @@ def beside_told(
             {
                 "folder": folder,
                 "storeys": document.storeys,
-                "offset_m": (document.facade.x_px - main.facade.x_px) * scale,
+                "offset_m": offset_between(main, document),
                 "bounds_min": list(low),
                 "bounds_max": list(high),
             }
@@ -96,9 +97,42 @@ def beside_of(summary: Mapping[str, JsonValue]) -> tuple[Beside, ...]:
     )
 
 
-def beside_kept(former: Mapping[str, JsonValue]) -> dict[str, JsonValue]:
-    """What a summary keeps of the one before: a rebuild of one house leaves the others."""
-    return {BESIDE: former[BESIDE]} if former.get(BESIDE) else {}
+def beside_kept(
+    former: Mapping[str, JsonValue], main: FacadeDocument, folder: Path
+) -> dict[str, JsonValue]:
+    """What a summary keeps of the one before: a rebuild of the main house leaves the others.
+
+    They stand wall to wall with it still, where its place, width or scale were edited. folder: that
+    of the photo in OUT, in which the others' documents lie.
+    """
+    rows = cast(list[dict[str, JsonValue]], former.get(BESIDE) or [])
+    kept: list[JsonValue] = []
+    for row in rows:
+        other = _document(folder / str(row["folder"]) / DOCUMENT)
+        kept.append(row if other is None else {**row, "offset_m": offset_between(main, other)})
+    return {BESIDE: kept} if kept else {}
+
+
+def offset_between(main: FacadeDocument, other: FacadeDocument) -> float:
+    """How far right of the frame of one house that of another begins (m).
+
+    Pixels between the two count by the other's scale, as its own do; so houses that touch in the
+    photo touch, whatever their scales are.
+    """
+    one, two = main.facade, other.facade
+    if two.x_px + 0.5 * two.width_px >= one.x_px + 0.5 * one.width_px:
+        gap_px = two.x_px - one.x_px - one.width_px
+        return one.width_m + gap_px * other.scale.metres_per_px
+    gap_px = one.x_px - two.x_px - two.width_px
+    return -two.width_m - gap_px * other.scale.metres_per_px
+
+
+def _document(path: Path) -> FacadeDocument | None:
+    """The document; None where it is gone or broken, which its own rebuild tells."""
+    try:
+        return FacadeDocument.model_validate_json(path.read_bytes())
+    except (OSError, ValueError):
+        return None
 
 
 def beside_line(summary: Mapping[str, JsonValue]) -> str:

@@ -29,11 +29,11 @@ class HouseParameters:
 
     narrowest: float = 1.6
     windows: int = 4
-    weights: tuple[float, ...] = (2.22, 0.0, 1.93, 0.78, 3.06, 1.39, 0.0, 1.06, 0.0)
-    offset: float = -5.88
+    weights: tuple[float, ...] = (2.05, 0.0, 2.52, 0.77, 2.99, 1.07, 0.0, 1.34, 0.0)
+    offset: float = -6.02
     most: float = 3.0
-    sure: float = 0.81
-    likely: float = 0.65
+    sure: float = 0.82
+    likely: float = 0.59
 
 
 @dataclass(frozen=True)

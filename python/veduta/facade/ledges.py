@@ -9,8 +9,15 @@ from veduta.facade.cells import DECIMALS
 from veduta.facade.document import FacadeDocument
 from veduta.facade.rectangles import Rectangle
 
-# What is left of a ledge beside the openings of the wall is none below this height (m).
-LEAST_M = 0.05
+
+@dataclass(frozen=True)
+class LedgeLimits:
+    """least_m: what openings leave of a ledge is none below this height (m). said: the share of its
+    height from which on it is told that a ledge lost it.
+    """
+
+    least_m: float = 0.05
+    said: float = 0.1
 
 
 @dataclass(frozen=True)
@@ -23,9 +30,14 @@ class PlannedLedge:
 
 
 def plan_ledges(
-    document: FacadeDocument, openings: Sequence[Rectangle], eaves_m: float, notes: list[str]
+    document: FacadeDocument,
+    openings: Sequence[Rectangle],
+    eaves_m: float,
+    notes: list[str],
+    limits: LedgeLimits | None = None,
 ) -> tuple[PlannedLedge, ...]:
-    """The ledges of a document where no opening is; the notes name those that have no room."""
+    """The ledges of a document where no opening is; the notes name those that have less room."""
+    own = limits or LedgeLimits()
     if document.depths is None:
         return ()
     box, scale = document.facade, document.scale.metres_per_px
@@ -34,10 +46,14 @@ def plan_ledges(
     for number, ledge in enumerate(document.depths.ledges):
         top = min(eaves_m, (foot_px - ledge.y_px) * scale)
         low = max(0.0, (foot_px - ledge.y_px - ledge.height_px) * scale)
+        high = top - low
         foot, top = _free(low, top, openings)
-        if top - foot < LEAST_M:
+        if top - foot < own.least_m:
             notes.append(f"ledge (depths.ledges[{number}]): left out, openings are in its place")
             continue
+        if top - foot < (1.0 - own.said) * high:
+            lost = f"{high:.2f} m high as measured, {top - foot:.2f} m in the model"
+            notes.append(f"ledge (depths.ledges[{number}]): {lost}, openings are in its place")
         foot, top = round(foot, DECIMALS), round(top, DECIMALS)
         found.append(PlannedLedge(foot, top, round(ledge.out_m, DECIMALS)))
     return tuple(found)

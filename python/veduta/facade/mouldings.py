@@ -10,8 +10,13 @@ from veduta.facade.document import FacadeDocument, Moulding
 from veduta.facade.ledges import PlannedLedge
 from veduta.facade.rectangles import Rectangle
 
-# Lower or shorter ones are left out (m).
-LEAST_HIGH_M, LEAST_WIDE_M = 0.06, 0.5
+
+@dataclass(frozen=True)
+class MouldingLimits:
+    """high_m, wide_m: lower or shorter mouldings are left out (m): nobody would see them."""
+
+    high_m: float = 0.06
+    wide_m: float = 0.5
 
 
 @dataclass(frozen=True)
@@ -24,12 +29,16 @@ class PlannedMoulding:
 
 
 def plan_mouldings(
-    document: FacadeDocument, width_m: float, ledges: Sequence[PlannedLedge] = ()
+    document: FacadeDocument,
+    width_m: float,
+    ledges: Sequence[PlannedLedge] = (),
+    limits: MouldingLimits | None = None,
 ) -> tuple[PlannedMoulding, ...]:
     """The mouldings of a document, clipped to the front; those that are too small are left out.
 
     Where a depth map has measured a ledge, that one is built.
     """
+    own = limits or MouldingLimits()
     box, m = document.facade, document.scale.metres_per_px
     below = box.y_px + box.height_px
     found = []
@@ -40,7 +49,7 @@ def plan_mouldings(
         top = (below - each.y_px) * m
         if any(ledge.foot_m < top and ledge.top_m > foot for ledge in ledges):
             continue
-        if right - left >= LEAST_WIDE_M and top - foot >= LEAST_HIGH_M:
+        if right - left >= own.wide_m and top - foot >= own.high_m:
             place = snapped(Rectangle(left, foot, right, top))
             found.append(PlannedMoulding(number, place, each))
     return tuple(found)

@@ -10,8 +10,15 @@ from veduta.facade.adjusted import left_out
 from veduta.facade.layout import GAP_M, SMALLEST_M, Opening
 from veduta.facade.rectangles import Rectangle, carve
 
-# A roof lower than this is flat (m), as `roof.LEAST_ROOF_M`.
-LEAST_M = 0.5
+
+@dataclass(frozen=True)
+class GableLimits:
+    """least_m: a roof lower than this is flat (m), as `roof.LEAST_ROOF_M`. kept: the share of its
+    width that an opening has left beside the gable's sides and other openings, at least.
+    """
+
+    least_m: float = 0.5
+    kept: float = 0.6
 
 
 @dataclass(frozen=True)
@@ -39,13 +46,15 @@ def plan_gable(
     sizes_m: tuple[float, float, float],
     windows: Sequence[Opening],
     notes: list[str],
+    limits: GableLimits | None = None,
 ) -> PlannedGable | None:
     """The roof over a front of this width, height of the eaves, and height of the roof.
 
     None where it is too low. Windows that do not lie in the gable are left out, and noted.
     """
+    own = limits or GableLimits()
     width, eaves, high = sizes_m
-    if high < LEAST_M:
+    if high < own.least_m:
         return None
     gable = PlannedGable(kind, width, eaves, high)
     found: list[Opening] = []
@@ -55,7 +64,7 @@ def plan_gable(
         side = gable.side_m(place.z1) + GAP_M
         inside = place.common(Rectangle(side, eaves, width - side, gable.top_m))
         free = carve(inside, [other.rectangle for other in found], GAP_M)
-        small = free.width < max(SMALLEST_M, 0.6 * place.width) or free.height < SMALLEST_M
+        small = free.width < max(SMALLEST_M, own.kept * place.width) or free.height < SMALLEST_M
         if kind == "hip" or small:
             reason = "it does not lie in the gable" if kind == "gable" else "it lies in the roof"
             notes.append(left_out(window.element, window.number, reason))

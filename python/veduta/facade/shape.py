@@ -17,14 +17,31 @@ from veduta.facade.document import Element
 from veduta.facade.rectangles import Rectangle
 
 Point = tuple[float, float]
-# Cuts that leave less than this of a shape, or take less than that off it, are none (m).
-LEAST_LEFT_M, LEAST_OFF_M = 0.05, 0.002
-# Edges this close to a side of the rectangle are on it (m).
-_ON_SIDE_M = 0.005
-# A shape closer to a side than this touches it, and then lies on it along this length at least (m).
-_NEAR_M, _LEAST_SIDE_M = 0.004, 0.02
-# By how much lines are moved out until that is so (m), and how often.
-_STEP_M, _MOST_STEPS = 0.006, 6
+
+
+@dataclass(frozen=True)
+class ShapeParameters:
+    """When an edge of a shape is a cut of its rectangle; lengths in metres.
+
+    least_left_m, least_off_m: cuts that leave less of a shape, or take less off it, are none.
+    on_side_m: edges so close to a side of the rectangle are on it. near_m, least_side_m: a shape
+    closer to a side touches it, and then lies on it along this length at least. step_m, steps: by
+    how much lines are moved out until that is so, and how often. head: share of the width, from the
+    sides, in which an arch springs. All are a little more than the millimetre to which rules are
+    rounded.
+    """
+
+    least_left_m: float = 0.05
+    least_off_m: float = 0.002
+    on_side_m: float = 0.005
+    near_m: float = 0.004
+    least_side_m: float = 0.02
+    step_m: float = 0.006
+    steps: int = 6
+    head: float = 0.02
+
+
+_OWN = ShapeParameters()
 
 
 @dataclass(frozen=True)
@@ -78,7 +95,7 @@ def head_rise_m(element: Element) -> float:
     if not element.outline_px:
         return 0.0
     corners = np.array(element.outline_px, dtype=np.float64)
-    near = 0.02 * element.width_px
+    near = _OWN.head * element.width_px
     sides = [corners[:, 0] < element.x_px + near]
     sides.append(corners[:, 0] > element.x_px + element.width_px - near)
     springers = [float(corners[side, 1].min()) for side in sides if side.any()]
@@ -105,8 +122,8 @@ def cuts_of(element: Element, place: Rectangle) -> list[Cut]:
     side of the place is cut off there: walls that meet in a point do not close.
     """
     planes = _half_planes(element)
-    for step in range(_MOST_STEPS):
-        cuts, shape = _cuts(planes, place, step * _STEP_M)
+    for step in range(_OWN.steps):
+        cuts, shape = _cuts(planes, place, step * _OWN.step_m)
         if _keeps_sides(shape, place):
             return cuts
     return []
@@ -123,7 +140,7 @@ def _cuts(
         turn = radians(plane.turn_deg)
         along = [x * cos(turn) + z * sin(turn) for x, z in shape]
         keep = round(plane.reach + further - min(along), 3)
-        if keep > max(along) - min(along) - LEAST_OFF_M or keep < LEAST_LEFT_M:
+        if keep > max(along) - min(along) - _OWN.least_off_m or keep < _OWN.least_left_m:
             continue
         found.append(Cut(round(plane.turn_deg - before, 4), keep))
         before = round(before + found[-1].turn_deg, 4)
@@ -134,8 +151,8 @@ def _cuts(
 def _keeps_sides(shape: Sequence[Point], place: Rectangle) -> bool:
     """Whether a shape has either nothing of each side of the place, or more than a touch."""
     for axis, at in ((0, place.x0), (0, place.x1), (1, place.z0), (1, place.z1)):
-        on = [p[1 - axis] for p in shape if abs(p[axis] - at) < _NEAR_M]
-        if on and max(on) - min(on) < _LEAST_SIDE_M:
+        on = [p[1 - axis] for p in shape if abs(p[axis] - at) < _OWN.near_m]
+        if on and max(on) - min(on) < _OWN.least_side_m:
             return False
     return True
 
@@ -170,7 +187,7 @@ def _half_planes(element: Element) -> list[_HalfPlane]:
 
 
 def _is_on_side(a: Point, b: Point, sides: Rectangle) -> bool:
-    near = _ON_SIDE_M
+    near = _OWN.on_side_m
     upright = any(max(abs(a[0] - x), abs(b[0] - x)) < near for x in (sides.x0, sides.x1))
     return upright or any(max(abs(a[1] - z), abs(b[1] - z)) < near for z in (sides.z0, sides.z1))
 

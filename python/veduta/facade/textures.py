@@ -28,23 +28,28 @@ from veduta.facade.side_wall import side_of
 from veduta.facade.sky_fringe import sky_with_fringe, without_sky
 from veduta.place.material import Colour, Texture
 
-# Longest edge of a texture (px).
-LONGEST_PX = 4096
-
-# Colours where the photo shows none of a class.
-_STONE: Colour = (0.78, 0.73, 0.65)
-_SLATE: Colour = (0.30, 0.33, 0.37)
-_IRON: Colour = (0.12, 0.12, 0.13)
-_WOOD: Colour = (0.29, 0.23, 0.17)
-_BRICK: Colour = (0.55, 0.36, 0.29)
-
-# Railings with this share of the wall's lightness are stone.
-_STONE_SHARE = 0.72
-
-# Sky shows at most so far below the eaves, as a share of the front: between gables and the like.
-_SKY_BELOW = 0.25
-
 Pixels = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class TextureParameters:
+    """longest_px: the longest edge of a texture. stone, slate, iron, wood, brick: sRGB 0..1 of what
+    the photo shows none of. stone_share: railings with this share of the wall's lightness are of
+    stone. sky_below: how far below the eaves sky shows at most, as a share of the front: between
+    gables, and over a lower house beside it.
+    """
+
+    longest_px: int = 4096
+    stone: Colour = (0.78, 0.73, 0.65)
+    slate: Colour = (0.30, 0.33, 0.37)
+    iron: Colour = (0.12, 0.12, 0.13)
+    wood: Colour = (0.29, 0.23, 0.17)
+    brick: Colour = (0.55, 0.36, 0.29)
+    stone_share: float = 0.72
+    sky_below: float = 0.25
+
+
+USUAL = TextureParameters()
 
 
 @dataclass(frozen=True)
@@ -62,7 +67,7 @@ class Colours:
     def railing_kind(self) -> Literal["iron", "stone"]:
         """Railings about as light as the wall are of stone."""
         light, wall = sum(self.balcony), sum(self.wall)
-        return "stone" if light > _STONE_SHARE * wall else "iron"
+        return "stone" if light > USUAL.stone_share * wall else "iron"
 
 
 @dataclass(frozen=True)
@@ -136,14 +141,15 @@ def _in_photo(whole: PixelBox, photo: Pixels) -> PixelBox:
 
 def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) -> Colours:
     return Colours(
-        wall=_typical(crop, extent_mask(document, box, "wall") & seen, _STONE),
-        roof=_typical(crop, extent_mask(document, box, "roof") & seen, _SLATE),
-        balcony=_darker(crop, element_mask(document, box, "balcony") & seen, _IRON),
-        door=_typical(crop, element_mask(document, box, "door") & seen, _WOOD),
+        wall=_typical(crop, extent_mask(document, box, "wall") & seen, USUAL.stone),
+        roof=_typical(crop, extent_mask(document, box, "roof") & seen, USUAL.slate),
+        balcony=_darker(crop, element_mask(document, box, "balcony") & seen, USUAL.iron),
+        door=_typical(crop, element_mask(document, box, "door") & seen, USUAL.wood),
         mouldings=tuple(
-            _typical(crop, _strip_mask(each, box) & seen, _STONE) for each in document.mouldings
+            _typical(crop, _strip_mask(each, box) & seen, USUAL.stone)
+            for each in document.mouldings
         ),
-        chimney=_typical(crop, element_mask(document, box, "chimney") & seen, _BRICK),
+        chimney=_typical(crop, element_mask(document, box, "chimney") & seen, USUAL.brick),
     )
 
 
@@ -193,7 +199,7 @@ def _surface_layer(
     """The photo without what stands before wall and roof, and the mask of invented pixels."""
     sky = extent_mask(document, box, "sky")
     rows = np.arange(len(crop))[:, None] + box.y0
-    above = rows < document.facade.y_px + _SKY_BELOW * document.facade.height_px
+    above = rows < document.facade.y_px + USUAL.sky_below * document.facade.height_px
     invented = (sky_with_fringe(crop, sky) & above) | element_mask(document, box, "chimney")
     surface = without_sky(crop, invented, colours.roof)
     # Below the eaves it is the wall that goes on where a lower house beside it leaves sky.
@@ -216,8 +222,8 @@ def _fitted_side(
 
 
 def _fitted(pixels: Pixels, mask: Mask, box: PixelBox, whole: PixelBox) -> Texture:
-    """At most `LONGEST_PX` on the long edge, and filled up to the whole from its border."""
-    factor = min(1.0, LONGEST_PX / max(whole.size))
+    """At most `longest_px` on the long edge, and filled up to the whole from its border."""
+    factor = min(1.0, USUAL.longest_px / max(whole.size))
     if factor < 1.0:
         size = (max(1, round(box.size[0] * factor)), max(1, round(box.size[1] * factor)))
         pixels = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)

@@ -6,11 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pydantic import JsonValue
+from sample_document import sample_document
 
 from veduta.facade.arrangement import GAP_M, Placed, arrange
+from veduta.facade.document import FacadeDocument
 from veduta.facade.evidence import gather
 from veduta.facade.eyes import SeenElement
-from veduta.facade.house_folders import Beside, beside_line, beside_of
+from veduta.facade.house_folders import Beside, beside_kept, beside_line, beside_of
 from veduta.facade.houses import (
     HouseParameters,
     PartyWall,
@@ -167,3 +170,29 @@ def test_a_photo_that_is_called_as_a_house_keeps_its_id() -> None:
         "a-house-2": "a-house-2/model.glb",
         "a-house-2-2": "a-house-2-2/model.glb",
     }
+
+
+def _house(x_px: float, width_px: float, metres_per_px: float) -> FacadeDocument:
+    document = sample_document()
+    facade = document.facade.model_copy(
+        update={"x_px": x_px, "width_px": width_px, "width_m": width_px * metres_per_px}
+    )
+    scale = document.scale.model_copy(update={"metres_per_px": metres_per_px})
+    return document.model_copy(update={"facade": facade, "scale": scale})
+
+
+def test_houses_stay_wall_to_wall_where_the_main_one_was_edited(tmp_path: Path) -> None:
+    others = {"house-1": _house(0, 100, 0.05), "house-3": _house(300, 80, 0.05)}
+    rows: list[JsonValue] = []
+    for name, document in others.items():
+        (tmp_path / name).mkdir()
+        text = document.model_dump_json(by_alias=True)
+        (tmp_path / name / "facade.json").write_text(text, encoding="utf-8")
+        rows.append({"folder": name, "offset_m": -99.0})
+    rows.append({"folder": "house-9", "offset_m": 7.0})
+    main = _house(110, 190, 0.1)  # the scale was 0.05, and the left border at 100
+    kept = beside_kept({"beside": rows}, main, tmp_path)["beside"]
+    assert isinstance(kept, list)
+    offsets = [row["offset_m"] for row in kept if isinstance(row, dict)]
+    assert offsets == pytest.approx([-5.0 - 0.5, 19.0, 7.0]), "the last one's document is gone"
+    assert beside_kept({}, main, tmp_path) == {}

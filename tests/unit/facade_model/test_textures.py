@@ -9,7 +9,7 @@ from sample_document import FACADE_M, PHOTO_PX, element, sample_document, sample
 
 from veduta.facade.document import FacadeDocument
 from veduta.facade.photo_masks import BORDER_PX, PixelBox, seen_mask
-from veduta.facade.textures import LONGEST_PX, FacadeTextures, make_textures
+from veduta.facade.textures import USUAL, FacadeTextures, make_textures
 from veduta.place.material import Texture
 
 BALCONY = element("balcony", 3.0, 6.0, 3.0, 1.0)
@@ -88,7 +88,7 @@ def test_long_photos_shrink_to_the_limit(top_m: float) -> None:
     large = document.model_copy(update={"facade": facade, "scale": scale})
     photo = np.full((tall, 400, 3), 128, dtype=np.uint8)
     texture = make_textures(large, photo, top_m).front
-    assert max(texture.invented.shape) == LONGEST_PX
+    assert max(texture.invented.shape) == USUAL.longest_px
     assert texture.pixels.shape[:2] == texture.invented.shape
 
 

@@ -66,7 +66,7 @@ def test_offsets_are_refined_by_what_is_around() -> None:
     number = np.zeros(holes.shape, np.int16)
     choice = Choice(number, np.ones(holes.shape, np.float32))
     picture = Spoilt(wall(), holes, np.zeros(200, np.int64))
-    found = refined(picture, choice, np.array([[ACROSS + 2, -1]]), 20, 2)
+    found = refined(picture, choice, np.array([[ACROSS + 2, -1]]), 20, RepeatParameters())
     np.testing.assert_array_equal(found, [[ACROSS, 0]])
 
 

@@ -15,10 +15,18 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.grammar.assets.asset import Asset
 
-ON_WALL_M = 0.05
-"""What lies in the plane of the wall along the lot's first edge."""
-DEEPEST_M = 2.0
-"""What lies further behind the wall is another wall's: arcades are the deepest recesses."""
+
+@dataclass(frozen=True)
+class ElevationParameters:
+    """on_wall_m: what is so near to the lot's first edge lies in the plane of the wall. deepest_m:
+    what lies further behind the wall is another wall's: arcades are the deepest recesses.
+    """
+
+    on_wall_m: float = 0.05
+    deepest_m: float = 2.0
+
+
+_OWN = ElevationParameters()
 
 
 @dataclass(frozen=True)
@@ -57,7 +65,7 @@ def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevati
         bottom, top = instance_boxes(derived, assets)
         np.minimum.at(low, derived.instance_feature, bottom)
         np.maximum.at(high, derived.instance_feature, top)
-    front = np.isfinite(low[:, 0]) & (high[:, 1] < DEEPEST_M)
+    front = np.isfinite(low[:, 0]) & (high[:, 1] < _OWN.deepest_m)
     rows = np.flatnonzero(front)
     return Elevation(
         classes=tuple(classes[row] for row in rows.tolist()),
@@ -76,8 +84,8 @@ def _eaves_m(derived: _core.DerivedLot, classes: list[str], starts: NDArray[np.i
         return 0.0
     low = np.minimum.reduceat(derived.positions_m, starts)
     high = np.maximum.reduceat(derived.positions_m, starts)
-    front = is_wall[derived.polygon_feature] & (np.abs(low[:, 1]) < ON_WALL_M)
-    front &= np.abs(high[:, 1]) < ON_WALL_M
+    front = is_wall[derived.polygon_feature] & (np.abs(low[:, 1]) < _OWN.on_wall_m)
+    front &= np.abs(high[:, 1]) < _OWN.on_wall_m
     return float(max([0.0, *high[front, 2].tolist()]))
 
 

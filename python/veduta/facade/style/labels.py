@@ -12,13 +12,25 @@ from veduta.facade.style.elevation import Elevation
 from veduta.facade.style.observed import KINDS, LABELS
 
 _PLACE = {name: place for place, name in enumerate(LABELS)}
-# A roof that is lower is not seen from the street (m).
-_LEAST_ROOF_M = 0.4
-# Balconies that are lower are their slabs alone (m); their railings have boxes of their own.
-_LEAST_BALCONY_M = 0.5
-# A railing hides what is behind it where it is before so much of an opening's width.
-_HIDES_SHARE = 0.6
 Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LabelParameters:
+    """What of a derived front one sees from the street.
+
+    roof_m: a lower roof is not seen. balcony_m: balconies that are lower are their slabs alone;
+    their railings have boxes of their own. hides: a railing hides what is behind it where it is
+    before so much of an opening's width. foot_m: how far above an opening's foot it may begin.
+    """
+
+    roof_m: float = 0.4
+    balcony_m: float = 0.5
+    hides: float = 0.6
+    foot_m: float = 0.5
+
+
+_OWN = LabelParameters()
 
 
 @dataclass(frozen=True)
@@ -51,7 +63,7 @@ def painted(front: Front, shape: tuple[int, int], cell_m: float) -> NDArray[np.i
     """(rows, columns) the label of each cell, row 0 the lowest."""
     rows, columns = shape
     labels = np.full(shape, _PLACE["sky"], dtype=np.int32)
-    if front.top_m - front.eaves_m >= _LEAST_ROOF_M:
+    if front.top_m - front.eaves_m >= _OWN.roof_m:
         for roof in front.roofs:
             corners = np.rint(roof / cell_m).astype(np.int32)
             cv2.fillPoly(labels, [corners], _PLACE["roof"])
@@ -66,7 +78,7 @@ def painted(front: Front, shape: tuple[int, int], cell_m: float) -> NDArray[np.i
 
 def _railings(boxes: Float) -> Float:
     """One box for each balcony: those of railings, each once."""
-    high = boxes[boxes[:, 3] - boxes[:, 1] >= _LEAST_BALCONY_M]
+    high = boxes[boxes[:, 3] - boxes[:, 1] >= _OWN.balcony_m]
     return np.unique(high.round(1), axis=0)
 
 
@@ -76,9 +88,11 @@ def _above_railings(windows: Float, railings: Float) -> Float:
         return windows
     beside = np.minimum(windows[:, None, 2], railings[:, 2])
     beside -= np.maximum(windows[:, None, 0], railings[:, 0])
-    before = beside > _HIDES_SHARE * (windows[:, 2] - windows[:, 0])[:, None]
-    before &= (railings[:, 1] < windows[:, None, 1] + 0.5) & (railings[:, 3] > windows[:, None, 1])
-    foot = np.where(before, railings[:, 3], -np.inf).max(axis=1)
+    before = beside > _OWN.hides * (windows[:, 2] - windows[:, 0])[:, None]
+    before &= (railings[:, 1] < windows[:, None, 1] + _OWN.foot_m) & (
+        railings[:, 3] > windows[:, None, 1]
+    )
+    seen = np.where(before, railings[:, 3], -np.inf).max(axis=1)
     clipped = windows.copy()
-    clipped[:, 1] = np.minimum(np.maximum(windows[:, 1], foot), windows[:, 3])
+    clipped[:, 1] = np.minimum(np.maximum(windows[:, 1], seen), windows[:, 3])
     return clipped

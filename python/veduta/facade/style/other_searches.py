@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,8 +12,13 @@ from veduta.facade.style.posterior import Posterior, Scored
 from veduta.facade.style.proposals import propose
 from veduta.facade.style.starts import climbed
 
-HOT, COLD = 0.05, 4.0
-"""The powers of the likelihood that annealing begins and ends with."""
+
+@dataclass(frozen=True)
+class AnnealParameters:
+    """hot, cold: the powers of the likelihood that annealing begins and ends with."""
+
+    hot: float = 0.05
+    cold: float = 4.0
 
 
 def greedy(posterior: Posterior, start: Scored, rng: np.random.Generator, seconds: float) -> Scored:
@@ -28,11 +34,18 @@ def greedy(posterior: Posterior, start: Scored, rng: np.random.Generator, second
         state = posterior.grammar.draw(rng)
 
 
-def anneal(posterior: Posterior, start: Scored, rng: np.random.Generator, seconds: float) -> Scored:
+def anneal(
+    posterior: Posterior,
+    start: Scored,
+    rng: np.random.Generator,
+    seconds: float,
+    parameters: AnnealParameters | None = None,
+) -> Scored:
     """One chain that cools down; the best that it met."""
+    own = parameters or AnnealParameters()
     begun, at, best = time.perf_counter(), start, start
     while (spent := time.perf_counter() - begun) < seconds:
-        beta = HOT * (COLD / HOT) ** (spent / seconds)
+        beta = own.hot * (own.cold / own.hot) ** (spent / seconds)
         step = propose(posterior, at, rng)
         if step is None:
             continue

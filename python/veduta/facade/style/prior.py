@@ -24,16 +24,25 @@ _ELSE = re.compile(r"else\s*:\s*(\"[^\"]*\"|[\w.]+)")
 COUNTS = ("storeys", "bayStoreys")
 """Attributes of the styles that count floors: whole numbers, where a file gives one value."""
 _LEFT_OUT = ("height", "LOD", "sides", "balconyDepth", "roofAngle", "frontYard", "houseDepth")
-ELSEWHERE = 0.2
-"""Share of the probability that lies evenly over the range of an attribute."""
-NEAR_SHARE = 0.05
-"""Deviation of an attribute that the file gives as one value, of that value."""
+
+
+@dataclass(frozen=True)
+class PriorParameters:
+    """elsewhere: share of the probability that lies evenly over the range of an attribute. near:
+    deviation of an attribute that the file gives as one value, of that value.
+    """
+
+    elsewhere: float = 0.2
+    near: float = 0.05
+
+
+_OWN = PriorParameters()
 
 
 @dataclass(frozen=True)
 class Real:
     """A length: evenly in `low` to `high` (normal about their middle where they are the same), or,
-    for a share of `ELSEWHERE`, anywhere from `least` to `most`.
+    for a share of `PriorParameters.elsewhere`, anywhere from `least` to `most`.
     """
 
     low: float
@@ -46,22 +55,24 @@ class Real:
         at = float(value)
         if not self.least <= at <= self.most:
             return -math.inf
-        density = ELSEWHERE / (self.most - self.least)
+        density = _OWN.elsewhere / (self.most - self.least)
         if self.high > self.low:
-            density += (1.0 - ELSEWHERE) * (self.low <= at <= self.high) / (self.high - self.low)
+            density += (
+                (1.0 - _OWN.elsewhere) * (self.low <= at <= self.high) / (self.high - self.low)
+            )
         else:
-            spread = NEAR_SHARE * self.low
+            spread = _OWN.near * self.low
             peak = math.exp(-0.5 * ((at - self.low) / spread) ** 2)
-            density += (1.0 - ELSEWHERE) * peak / (spread * math.sqrt(2.0 * math.pi))
+            density += (1.0 - _OWN.elsewhere) * peak / (spread * math.sqrt(2.0 * math.pi))
         return math.log(density)
 
     def draw(self, rng: np.random.Generator) -> float:
         """A value by chance."""
-        if rng.random() < ELSEWHERE:
+        if rng.random() < _OWN.elsewhere:
             return float(rng.uniform(self.least, self.most))
         if self.high > self.low:
             return float(rng.uniform(self.low, self.high))
-        near = rng.normal(self.low, NEAR_SHARE * self.low)
+        near = rng.normal(self.low, _OWN.near * self.low)
         return float(np.clip(near, self.least, self.most))
 
     @property
@@ -129,7 +140,7 @@ def _distribution(name: str, notes: str, value: str) -> Distribution | None:
         return Real(low, low + float(drawn[2]), least, most)
     alone = _value(value)
     if isinstance(alone, bool):
-        return _choice({alone: 1.0 - ELSEWHERE, not alone: ELSEWHERE}, math.nan, math.nan)
+        return _choice({alone: 1.0 - _OWN.elsewhere, not alone: _OWN.elsewhere}, math.nan, math.nan)
     if isinstance(alone, float) and limits:
         whole = name in COUNTS and alone.is_integer() and least.is_integer()
         return _choice({alone: 1.0}, least, most) if whole else Real(alone, alone, least, most)
@@ -142,7 +153,8 @@ def _choice(chances: Mapping[Value, float], least: float, most: float) -> Choice
         return Choice(tuple(chances), tuple(chances.values()))
     every = [float(number) for number in range(math.ceil(least), math.floor(most) + 1)]
     shares = [
-        (1.0 - ELSEWHERE) * chances.get(number, 0.0) + ELSEWHERE / len(every) for number in every
+        (1.0 - _OWN.elsewhere) * chances.get(number, 0.0) + _OWN.elsewhere / len(every)
+        for number in every
     ]
     return Choice(tuple(every), _normal(shares), ordered=True)
 

@@ -21,13 +21,22 @@ from veduta.facade.style.posterior import Posterior, Scored
 from veduta.facade.style.prior import Choice, Real, Value
 from veduta.facade.style.state import SCALE, State
 
-CUT_SHARE = 0.4
-"""Share of the steps that cut the tree."""
-TOGETHER_SHARE = 0.3
-"""Of the walks, those that keep the height or the width where they change a number or the scale."""
-FINER = (1.0, 0.3, 0.08)
-"""Walks are as long as the attribute's own step, or shorter."""
 _KEPT_WITH: dict[str, tuple[str, ...]] = {"storeys": ("storeyHeight",)}
+
+
+@dataclass(frozen=True)
+class ProposalParameters:
+    """cut: share of the steps that cut the tree. together: of the walks, those that keep the height
+    or the width where they change a number or the scale. finer: walks are as long as the
+    attribute's own step, or this share of it.
+    """
+
+    cut: float = 0.4
+    together: float = 0.3
+    finer: tuple[float, ...] = (1.0, 0.3, 0.08)
+
+
+_OWN = ProposalParameters()
 
 
 @dataclass(frozen=True)
@@ -40,7 +49,7 @@ class Step:
 
 def propose(posterior: Posterior, at: Scored, rng: np.random.Generator) -> Step | None:
     """A step by chance; None where it leads to no building."""
-    if rng.random() < CUT_SHARE and at.state.choices:
+    if rng.random() < _OWN.cut and at.state.choices:
         return _cut(posterior, at, rng)
     return _walk(posterior, at, rng)
 
@@ -63,7 +72,7 @@ def _walk(posterior: Posterior, at: Scored, rng: np.random.Generator) -> Step | 
     name = names[int(rng.integers(len(names)))]
     state, jacobian = moved(at.state, name, distributions[name], rng)
     others = _KEPT_WITH.get(name, ())
-    if rng.random() < TOGETHER_SHARE:
+    if rng.random() < _OWN.together:
         if name == SCALE:
             others = tuple(n for n, d in distributions.items() if isinstance(d, Real) and n != name)
         if others:
@@ -86,7 +95,7 @@ def moved(
     """A state with another value of an attribute, and the log of the ratio of the two ways."""
     value: Value
     if isinstance(distribution, Real):
-        length = distribution.step * FINER[int(rng.integers(len(FINER)))]
+        length = distribution.step * _OWN.finer[int(rng.integers(len(_OWN.finer)))]
         value = float(state.attributes[name]) + float(rng.normal(0.0, length))
         return state.with_attributes(**{name: value}), 0.0
     values = distribution.values

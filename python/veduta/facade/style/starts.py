@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,10 +17,21 @@ PITCHES = {"bayWidth": 1.0, "moduleWidth": 2.0, "houseWidth": 2.0}
 """Attributes that have the width of so many columns."""
 SHARES = ("windowShare",)
 """Attributes that are no lengths."""
-LEAST_CHANCE = 0.02
-"""Numbers of storeys that are less likely are no starts."""
-_HALVINGS = 3
-"""Halvings of the step in which an attribute is moved up and down."""
+
+
+@dataclass(frozen=True)
+class StartParameters:
+    """least_chance: numbers of storeys that are less likely are no starts. halvings: of the step in
+    which an attribute is moved up and down. rounds: of climbs. gain: nats that a round must bring.
+    """
+
+    least_chance: float = 0.02
+    halvings: int = 3
+    rounds: int = 2
+    gain: float = 0.1
+
+
+_OWN = StartParameters()
 
 
 def read_attributes(document: FacadeDocument) -> dict[str, float]:
@@ -87,7 +99,7 @@ def usual_states(grammar: StyleGrammar, eaves_m: float, rng: np.random.Generator
         return []
     found = []
     for number, chance in zip(storeys.values, storeys.chances, strict=True):
-        if chance < LEAST_CHANCE:
+        if chance < _OWN.least_chance:
             continue
         state = grammar.start().with_attributes(storeys=number)
         made = grammar.complete(state, rng)
@@ -115,11 +127,11 @@ def climbed(posterior: Posterior, start: State, rng: np.random.Generator) -> Sco
     at = posterior.score(start, rng)
     if at is None:
         return None
-    for _ in range(2):
+    for _ in range(_OWN.rounds):
         before = at.log_posterior
         at = _best_attributes(posterior, at, rng)
         at = _best_choices(posterior, at, rng)
-        if at.log_posterior <= before + 0.1:
+        if at.log_posterior <= before + _OWN.gain:
             break
     return at
 
@@ -143,7 +155,7 @@ def _best_attributes(posterior: Posterior, at: Scored, rng: np.random.Generator)
                 at = _better(posterior, at, at.state.with_attributes(**{name: value}), rng)
             continue
         step = distribution.step
-        for _ in range(_HALVINGS):
+        for _ in range(_OWN.halvings):
             for sign in (1.0, -1.0):
                 value = float(at.state.attributes[name]) + sign * step
                 if distribution.least <= value <= distribution.most:

@@ -10,7 +10,6 @@ from veduta.surfaces.filling.options import FillParameters
 
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
-_AROUND_PX = 5
 
 
 def bridge(pixels: Floats, known: Mask, parameters: FillParameters) -> tuple[Floats, Mask]:
@@ -37,7 +36,7 @@ def _along_rows(pixels: Floats, known: Mask, parameters: FillParameters) -> tupl
     short = end - start - 1 <= parameters.bridge_px
     y, x, start, end = y[short], x[short], start[short], end[short]
     first, last = pixels[y, start], pixels[y, end]
-    rough = _roughness(pixels, known)
+    rough = _roughness(pixels, known, parameters.around_px)
     fits = np.abs(first - last).max(axis=1) <= parameters.alike
     fits &= np.maximum(rough[y, start], rough[y, end]) <= parameters.smooth
     share = ((x - start) / np.maximum(end - start, 1))[:, None]
@@ -48,9 +47,9 @@ def _along_rows(pixels: Floats, known: Mask, parameters: FillParameters) -> tupl
     return filled, now
 
 
-def _roughness(pixels: Floats, known: Mask) -> Floats:
+def _roughness(pixels: Floats, known: Mask, around_px: int) -> Floats:
     """(h, w) standard deviation of the known pixels around, of the roughest channel."""
-    size = (_AROUND_PX, _AROUND_PX)
+    size = (around_px, around_px)
     weight = cv2.boxFilter(known.astype(np.float32), -1, size, normalize=False)
     weight = np.maximum(weight, 1.0)
     there = np.where(known[..., None], pixels, 0.0).astype(np.float32)

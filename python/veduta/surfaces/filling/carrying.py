@@ -17,8 +17,6 @@ from veduta.surfaces.filling.options import RepeatParameters
 
 Floats = NDArray[np.float32]
 _NEVER = np.float32(1e9)
-_LEAST = 60.0
-"""Mean square error (of 255) of what is carried down by nothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +45,7 @@ def carried_down(spoilt: Spoilt, reach_px: float, parameters: RepeatParameters) 
     columns = np.broadcast_to(np.arange(width), source.shape)
     usable &= ~spoilt.holes[source, columns] & (spoilt.zones[source] == spoilt.zones[rows])
     varies = _varies(spoilt, strip)[np.maximum(top, 0), columns]
-    cost = _LEAST + varies + parameters.lower * (depth / strip) ** 2
+    cost = parameters.carried + varies + parameters.lower * (depth / strip) ** 2
     pixels = spoilt.pixels[source, columns].astype(np.float32)
     return Carried(pixels, np.where(usable, cost, _NEVER).astype(np.float32))
 

@@ -15,12 +15,6 @@ Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 Offsets = NDArray[np.int64]
 _NEVER = np.float32(1e9)
-_OUTLIER = 60.0
-"""Of 255: larger differences count as this where an offset is moved by a few pixels."""
-
-
-_BETTER = 0.97
-"""Share of the difference at which an offset is better by more than chance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,12 +131,17 @@ def _spread(values: Floats, sigma: float) -> Floats:
 
 
 def refined(
-    spoilt: Spoilt, choice: Choice, offsets: Offsets, around_px: int, reach_px: int
+    spoilt: Spoilt,
+    choice: Choice,
+    offsets: Offsets,
+    around_px: int,
+    parameters: RepeatParameters,
 ) -> Offsets:
     """Each offset that was chosen, moved by the few pixels by which what is around fits best.
 
     around_px: how far around the holes is looked. It stays where another is hardly better.
     """
+    reach_px = parameters.refine_px
     height, width = spoilt.holes.shape
     grey = cv2.cvtColor(spoilt.pixels, cv2.COLOR_RGB2GRAY).astype(np.float32)
     known = (~spoilt.holes).astype(np.float32)
@@ -164,9 +163,9 @@ def refined(
                 slice(part[1].start + by[0], part[1].stop + by[0]),
             )
             both = known[part] * known[source]
-            apart = np.minimum(np.abs(grey[source] - grey[part]), _OUTLIER)
+            apart = np.minimum(np.abs(grey[source] - grey[part]), parameters.outlier)
             difference = float((apart * both).sum()) / max(float(both.sum()), 1.0)
-            if difference < _BETTER * least:
+            if difference < parameters.better * least:
                 found[which], least = by, difference
     return found
 

@@ -15,8 +15,6 @@ from veduta.surfaces.filling.options import FillParameters
 
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
-_LEAST_OVERLAP = 0.1
-_LEAST_HELP = 0.1
 
 
 def repeats(
@@ -49,7 +47,8 @@ def repeats(
     difference, overlap, helped = difference[at], overlap[at], helped[at]
     nearest = max(2.0, parameters.shortest * max(height, width))
     far = np.maximum(np.abs(y)[:, None], np.abs(x)[None]) >= nearest
-    usable = far & (helped >= _LEAST_HELP * hole.sum()) & (overlap >= _LEAST_OVERLAP * mask.sum())
+    usable = far & (helped >= parameters.help * hole.sum())
+    usable &= overlap >= parameters.overlap * mask.sum()
     if not usable.any():
         usable = helped >= 1.0
     ranked = np.where(usable, np.maximum(difference, 0.0), np.inf).astype(np.float32)

@@ -18,7 +18,12 @@ class FillParameters:
     windows, largest first; a smaller one serves where the larger fits worse than `good` (root mean
     square, of 255). known: share of a source window that must be known. different: larger
     differences count as this (outliers). faith: weight of how well a whole facade repeats by an
-    offset, in shares of a window. rounds: on each level.
+    offset, in shares of a window. rounds: on each level; coarsest_rounds: on the coarsest, where
+    nothing is known of its offsets. around_px: side of the square in which `smooth` is looked at.
+    overlap, help: shares of the known pixels that an offset leads to known ones, and of the hole
+    that it fills, at least. most_holes: beyond this number small ones are one together. guessed:
+    weight of a pixel that was filled on a coarser level, beside a known one. light: larger
+    differences (of 255) beside a hole are of things, not of light.
     """
 
     bridge_px: int = 9
@@ -34,6 +39,13 @@ class FillParameters:
     different: float = 80.0
     faith: float = 0.15
     rounds: int = 2
+    coarsest_rounds: int = 6
+    around_px: int = 5
+    overlap: float = 0.1
+    help: float = 0.1
+    most_holes: int = 400
+    guessed: float = 0.35
+    light: float = 30.0
 
 
 @dataclass(frozen=True)
@@ -50,7 +62,11 @@ class RepeatParameters:
     of `reach_px`, how far an interpolation is good. strip: in the same, the rows above a hole that
     are carried down into it. lower: the mean square error (of 255) that these get a strip further
     down. sharp: how much the likeliest of all ways outweighs the others: the power of the inverse
-    of their errors. Chosen on four synthetic facades, of seeds 0 to 3.
+    of their errors. outlier: larger differences (of 255) count as this where an offset is moved by
+    a few pixels; better: the share of the difference at which it is better by more than chance.
+    telea_px: radius of the interpolation. beside, carried: mean square errors (of 255) of the
+    interpolation right beside what is known, and of what is carried down by nothing. Chosen on
+    four synthetic facades, of seeds 0 to 3.
     """
 
     longest_px: int = 256
@@ -67,3 +83,8 @@ class RepeatParameters:
     strip: float = 0.25
     lower: float = 120.0
     sharp: float = 2.0
+    outlier: float = 60.0
+    better: float = 0.97
+    telea_px: int = 5
+    beside: float = 30.0
+    carried: float = 60.0

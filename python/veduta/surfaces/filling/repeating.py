@@ -17,17 +17,13 @@ from numpy.typing import NDArray
 
 from veduta.surfaces.filling.carrying import carried_down
 from veduta.surfaces.filling.choosing import Choice, Offsets, Spoilt, choose, refined
-from veduta.surfaces.filling.options import RepeatParameters
+from veduta.surfaces.filling.options import FillParameters, RepeatParameters
 from veduta.surfaces.filling.windows import level_with_rim
 
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
-_SMOOTH_PX = 5
-"""Radius of the interpolation."""
 _SURE = np.float32(1.0)
 _NEVER = np.float32(1e9)
-_LEAST = 30.0
-"""Mean square error (of 255) of the interpolation right beside what is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +64,7 @@ def fill_by_repeats(
     steps = np.concatenate([offsets.reshape(-1, 2), _own_steps(holes, chosen)])
     small = spoilt.small(scale)
     choice = choose(small, np.rint(steps * scale).astype(np.int64), reach_px * scale, chosen)
-    steps = refined(spoilt, choice, steps, max(4, round(0.3 * reach_px)), chosen.refine_px)
+    steps = refined(spoilt, choice, steps, max(4, round(0.3 * reach_px)), chosen)
     taken, there = _copied(spoilt, steps, choice)
     taken += _light(pixels, taken, there & ~holes, scale)
     cost = cv2.resize(choice.cost, (width, height), interpolation=cv2.INTER_LINEAR)
@@ -76,12 +72,12 @@ def fill_by_repeats(
     # At the picture's border the interpolation takes up what is in the hole.
     usual = np.median(pixels[~holes], axis=0).astype(np.uint8)
     bare = np.where(holes[..., None], usual, pixels)
-    smooth = cv2.inpaint(bare, holes.astype(np.uint8), _SMOOTH_PX, cv2.INPAINT_TELEA)
+    smooth = cv2.inpaint(bare, holes.astype(np.uint8), chosen.telea_px, cv2.INPAINT_TELEA)
     down = carried_down(spoilt, reach_px, chosen)
     ways = [
         (taken, cost),
         (down.pixels, down.cost),
-        (smooth.astype(np.float32), _smooth_cost(spoilt, chosen.smooth * reach_px)),
+        (smooth.astype(np.float32), _smooth_cost(spoilt, chosen.smooth * reach_px, chosen.beside)),
     ]
     weights = np.stack([(1.0 / np.maximum(each, _SURE)) ** chosen.sharp for _, each in ways])
     weights /= weights.sum(axis=0)
@@ -133,11 +129,11 @@ def _light(given: NDArray[np.uint8], taken: Floats, known: Mask, scale: float) -
         )
         for picture in (given, taken)
     )
-    level = level_with_rim(one, other, np.asarray(there > 0.5))
+    level = level_with_rim(one, other, np.asarray(there > 0.5), FillParameters().light)
     return np.asarray(cv2.resize(level, (width, height), interpolation=cv2.INTER_LINEAR))
 
 
-def _smooth_cost(spoilt: Spoilt, near_px: float) -> Floats:
+def _smooth_cost(spoilt: Spoilt, near_px: float, beside: float) -> Floats:
     """(h, w) mean square error that is to be expected of an interpolation.
 
     It grows with the distance from what is known to how much that varies.
@@ -150,5 +146,5 @@ def _smooth_cost(spoilt: Spoilt, near_px: float) -> Floats:
     square = cv2.boxFilter(grey * grey, -1, (side, side)) / weight
     varies = np.maximum(square - mean * mean, 0.0)
     away = cv2.distanceTransform(spoilt.holes.astype(np.uint8), cv2.DIST_L2, 3)
-    smooth = varies * (1.0 - np.exp(-away / max(near_px, 1.0))) + _LEAST
+    smooth = varies * (1.0 - np.exp(-away / max(near_px, 1.0))) + beside
     return np.asarray(smooth, np.float32)

@@ -20,8 +20,6 @@ from veduta.surfaces.filling.windows import Level, copy_windows, sure_of
 
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
-_ROUNDS_COARSEST = 6
-_MOST_HOLES = 400
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +57,7 @@ def fill_holes(
     copied, poor = 0, 0
     _, numbers = cv2.connectedComponents((~known).astype(np.uint8), connectivity=8)
     original = known.copy()
-    for number in _largest_first(np.asarray(numbers, dtype=np.int32)):
+    for number in _largest_first(np.asarray(numbers, dtype=np.int32), chosen.most_holes):
         hole = numbers == number
         work, fit = _fill_one(work, original, hole, chosen)
         copied += int(hole.sum())
@@ -68,16 +66,16 @@ def fill_holes(
     return Filled(result, holes.copy(), bridged, copied, poor / max(copied, 1))
 
 
-def _largest_first(numbers: NDArray[np.int32]) -> NDArray[np.int64]:
-    """The holes' numbers; beyond `_MOST_HOLES`, the small ones are one hole together."""
+def _largest_first(numbers: NDArray[np.int32], most_holes: int) -> NDArray[np.int64]:
+    """The holes' numbers; beyond `most_holes`, the small ones are one hole together."""
     sizes = np.bincount(numbers.ravel())
     sizes[0] = 0
     order = np.argsort(-sizes, kind="stable")
     order = order[sizes[order] > 0]
-    if len(order) > _MOST_HOLES:
-        rest = order[_MOST_HOLES - 1 :]
+    if len(order) > most_holes:
+        rest = order[most_holes - 1 :]
         numbers[np.isin(numbers, rest)] = rest[0]
-        order = order[:_MOST_HOLES]
+        order = order[:most_holes]
     return np.asarray(order, dtype=np.int64)
 
 
@@ -101,10 +99,11 @@ def _fill_one(
             pixels = np.where(open_[..., None], large, pixels)
         if not len(offsets):
             return _flat(work, known, hole), np.full(int(hole.sum()), 255.0, dtype=np.float32)
-        rounds = _ROUNDS_COARSEST if guess is None else parameters.rounds
+        rounds = parameters.coarsest_rounds if guess is None else parameters.rounds
         last = place == len(sizes) - 1
         for turn in range(rounds):
-            sure = sure_of(there, open_, guessed=guess is not None or turn > 0)
+            is_guessed = guess is not None or turn > 0
+            sure = sure_of(there, open_, parameters.guessed if is_guessed else None)
             level = Level(pixels, there, sure, open_, near)
             blend = not (last and turn == rounds - 1)
             made = copy_windows(level, offsets, worth, parameters, blend=blend)

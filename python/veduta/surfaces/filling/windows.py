@@ -13,10 +13,6 @@ from veduta.surfaces.filling.options import FillParameters
 
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
-_GUESSED = 0.35
-"""Weight of a pixel that was filled on a coarser level, beside a known one."""
-_LIGHT = 30.0
-"""Larger differences (of 255) beside a hole are of things, not of light."""
 _NO_FIT = np.float32(1e9)
 
 
@@ -83,21 +79,22 @@ def copy_windows(
         taken /= np.maximum(top, 1e-12)[..., None]
     filled = hole & (top > 0.0)
     if not blend:
-        taken += level_with_rim(level.pixels[level.near], taken, (top > 0.0) & level.known[near])
+        beside = (top > 0.0) & level.known[near]
+        taken += level_with_rim(level.pixels[level.near], taken, beside, parameters.light)
     pixels = level.pixels.copy()
     pixels[level.near][filled] = taken[filled]
     used = np.bincount(owner[filled], minlength=len(offsets))
     return Copied(pixels, used, np.sqrt(cost[hole]))
 
 
-def level_with_rim(given: Floats, taken: Floats, known: Mask) -> Floats:
+def level_with_rim(given: Floats, taken: Floats, known: Mask, light: float) -> Floats:
     """(h, w, 3) what to add to copied pixels so that they are as bright as the known ones beside.
 
     The differences of known pixels from what would be copied to them, as far as they are ones of
     light and not of things, spread by a kernel with long tails (inverse squares of distance).
     """
     apart = given - taken
-    weight = (known & (np.abs(apart).max(axis=2) < _LIGHT)).astype(np.float32)
+    weight = (known & (np.abs(apart).max(axis=2) < light)).astype(np.float32)
     summed, weights = np.zeros_like(taken), np.zeros_like(weight)
     sigma = 1.5
     while sigma < max(known.shape):
@@ -147,9 +144,9 @@ def _window_cost(
     return np.asarray(np.where(share >= parameters.known, cost, _NO_FIT), dtype=np.float32)
 
 
-def sure_of(known: Mask, hole: Mask, *, guessed: bool) -> Floats:
-    """(h, w) 1 where known, `_GUESSED` in the hole if it was filled before, else 0."""
+def sure_of(known: Mask, hole: Mask, guessed: float | None) -> Floats:
+    """(h, w) 1 where known, `guessed` in the hole if it was filled before, else 0."""
     sure = known.astype(np.float32)
-    if guessed:
-        sure[hole] = _GUESSED
+    if guessed is not None:
+        sure[hole] = guessed
     return sure
