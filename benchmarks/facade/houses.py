@@ -106,12 +106,17 @@ class Picture:
         found = chosen(walls, self.storey, own)
         return [w.x / self.width for w in found.walls], found.doubtful is not None
 
+    def houses(self, found: Sequence[float], own: HouseParameters) -> list[tuple[int, int]]:
+        """Columns from and to of each house between borders at these shares of the width."""
+        walls = [PartyWall(round(x * self.width), 1.0) for x in found]
+        return house_spans(walls, self.elements, (0, self.width), self.storey, own)
+
     def whole_borders(self, own: HouseParameters) -> list[float]:
         """The marked borders that have a house on both sides."""
-        walls = [PartyWall(round(x * self.width), 1.0) for x in self.borders]
-        spans = house_spans(walls, self.elements, (0, self.width), self.storey, own)
+        spans = self.houses(self.borders, own)
         ends = {a for a, _ in spans} & {b for _, b in spans}
-        return [wall.x / self.width for wall in walls if wall.x in ends]
+        at = [round(x * self.width) for x in self.borders]
+        return [x / self.width for x in at if x in ends]
 
 
 def main() -> None:
@@ -142,7 +147,10 @@ def main() -> None:
 
 LEGEND = (
     "between houses: marked borders with a house on both sides, and how many of them are found;"
-    " borders: all that were marked; false: found ones that are none, near no mark."
+    " borders: all that were marked; false: found ones near no mark; parted: pictures of one house"
+    " of which two were made. A first fit without the limit of 1.5 parted 7 of 19 pictures of one"
+    " house that it was not fitted to; the limit was chosen by four folds of the others. After that"
+    " three neighbours that had not been marked (b0284, b0285, b0289) became `unsure`."
 )
 
 
@@ -256,8 +264,9 @@ def measured(name: str, pictures: Sequence[Picture], own: HouseParameters) -> Ro
         false += wrong
         if not marks:
             single += 1
-            parted += bool(found)
-            doubted += bool(doubt and not found)
+            spans = one.houses(found, own)
+            parted += len(spans) > 1
+            doubted += bool(doubt and len(spans) == 1)
     return {
         "pictures": name,
         "number": len(pictures),

@@ -21,19 +21,19 @@ class HouseParameters:
     narrowest: the least width of a house. windows: the fewest that each has, and that there are in
     all. weights, offset: the logarithm of the odds of a border is the sum of the signs
     (`party_signs`, each cut off at `most`) by their weights, and the offset; fitted on pictures of
-    CMP in which the borders were marked by eye (`benchmarks/facade/houses.py`), of odd numbers
-    below 240. sure: the chance from which on the houses are parted; likely: from which on it is
-    said that there may be several. Both were chosen there: `sure` so that of the marked pictures
-    of one house one in thirty is parted, `likely` so that one in ten is doubted.
+    CMP in which the borders were marked by eye, of odd numbers below 240. sure: the chance from
+    which on the houses are parted; likely: from which on it is said that there may be several: so
+    that of the pictures of one house that were fitted to one in thirty is parted and one in ten
+    doubted. `benchmarks/facade/houses.py` fits all of them.
     """
 
     narrowest: float = 1.6
     windows: int = 4
-    weights: tuple[float, ...] = (2.05, 0.0, 2.52, 0.77, 2.99, 1.07, 0.0, 1.34, 0.0)
-    offset: float = -6.02
-    most: float = 3.0
-    sure: float = 0.82
-    likely: float = 0.59
+    weights: tuple[float, ...] = (2.08, 0.2, 2.86, 1.33, 2.75, 1.25, 0.0, 1.55, 0.0)
+    offset: float = -6.64
+    most: float = 1.5
+    sure: float = 0.86
+    likely: float = 0.53
 
 
 @dataclass(frozen=True)
