@@ -1,19 +1,37 @@
 /** 3D Tiles of a flat world, and the tables in them. */
 import type { Tile } from "3d-tiles-renderer/core";
 import { TilesRenderer } from "3d-tiles-renderer/three";
-import type { BufferAttribute, BufferGeometry, InterleavedBufferAttribute, Object3D } from "three";
+import { type BufferAttribute, type BufferGeometry, type InterleavedBufferAttribute, type Object3D, Sphere, Vector3 } from "three";
 import type { GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { Budget } from "../core/budget.ts";
 import { TileTable } from "../core/tile-table.ts";
+import type { Vec3 } from "../core/vector.ts";
 
 interface VedutaTile extends Tile {
   extras?: { veduta?: { world_m?: readonly number[] } };
   transform?: number[];
 }
 
+/** Levels that differ from the truth by more are nothing to walk against. */
+export const WALKABLE_ERROR_M = 1;
+/** So far around the eye tiles come that are not seen: a visitor who runs takes some seconds to meet them (m). */
+const AROUND_M = 12;
+
+/** What the library finds of a tile: whether it is seen, and its error on the screen. */
+export interface Seen {
+  inView: boolean;
+  error: number;
+}
+
+interface Placed extends Tile {
+  engineData: { boundingVolume: { intersectsSphere(sphere: Sphere): boolean } };
+}
+
 /** The world frame is flat: tiles stand where the place's own frame has them, not on the globe. */
 export class FlatTiles extends TilesRenderer {
   readonly #bytes = new WeakMap<Tile, number>();
+  /** What is around a person, seen or not; world frame. */
+  readonly #around = new Sphere(new Vector3(), AROUND_M);
 
   constructor(address: string, budget: Pick<Budget, "keptTiles_bytes" | "mostTiles_bytes">) {
     super(address);
@@ -33,6 +51,20 @@ export class FlatTiles extends TilesRenderer {
     return this.#bytes.get(tile) ?? null;
   }
 
+  /** Where somebody is. */
+  standAt(eye: Vec3): void {
+    this.#around.center.set(...eye);
+  }
+
+  /** What one may bump into comes like what one sees: who steps back does not walk through what is behind. */
+  calculateTileViewError(tile: Placed, target: Seen): void {
+    // The types leave it out.
+    (TilesRenderer.prototype as unknown as Looking).calculateTileViewError.call(this, tile, target);
+    if (target.inView || !tile.engineData.boundingVolume.intersectsSphere(this.#around)) return;
+    target.inView = true;
+    target.error = tile.geometricError > WALKABLE_ERROR_M ? Infinity : 0;
+  }
+
   preprocessNode(tile: VedutaTile, folder: string, parent: Tile | null = null): void {
     const at = tile.extras?.veduta?.world_m;
     if (at?.length === 3) {
@@ -46,6 +78,10 @@ export class FlatTiles extends TilesRenderer {
 
 interface Preprocessing {
   preprocessNode(this: FlatTiles, tile: Tile, folder: string, parent: Tile | null): void;
+}
+
+interface Looking {
+  calculateTileViewError(this: FlatTiles, tile: Tile, target: Seen): void;
 }
 
 /** What the meshes of a tile take on the card; what two of them share counts once. */

@@ -29,15 +29,13 @@ import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
 import type { Missing } from "./arrivals.ts";
-import { FlatTiles, tableOf } from "./flat-tiles.ts";
+import { FlatTiles, tableOf, WALKABLE_ERROR_M } from "./flat-tiles.ts";
 import { layGround } from "./ground-material.ts";
 import { type Hit, Solid } from "./solid.ts";
 import { SharedImages } from "./shared-images.ts";
 import { TileModel } from "./tile-model.ts";
 
 const COLOURING_STRENGTH = 0.78;
-/** Levels that differ from the truth by more are nothing to walk against. */
-const WALKABLE_ERROR_M = 1;
 /** Obstacles of so many tiles are kept. */
 const MOST_SOLIDS = 6;
 /** After so many rounds in which nothing is on its way nothing will come. */
@@ -180,6 +178,7 @@ export class Town implements Obstacles {
   update(camera: PerspectiveCamera, renderer: WebGLRenderer): void {
     camera.updateMatrixWorld();
     this.#tiles.setResolutionFromRenderer(camera, renderer);
+    this.#tiles.standAt(worldFromDrawn(camera.position.toArray()));
     this.#advance();
   }
 
