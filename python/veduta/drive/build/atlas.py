@@ -66,6 +66,17 @@ class Atlas:
         ).astype(np.float32)
 
 
+    def spread(self, values: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """(h, w) what a mask of the depth image (r, c) says of each texel."""
+        height, width = self.seen.shape
+        rows = np.interp(-(np.arange(height) + 0.5), -self.row, np.arange(len(self.row)))
+        sign = 1.0 if self.column[-1] > self.column[0] else -1.0
+        across = sign * (np.arange(width) + 0.5)
+        columns = np.interp(across, sign * self.column, np.arange(len(self.column)))
+        at = np.ix_(np.rint(rows).astype(np.int64), np.rint(columns).astype(np.int64))
+        return np.asarray(values[at], dtype=bool)
+
+
 def lay_out(
     depth: NDArray[np.float32], frame: ColumnFrame, texel_m: float, largest: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], tuple[int, int]]:

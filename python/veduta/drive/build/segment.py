@@ -211,6 +211,7 @@ def texture(
         pixels, invented, plain = fill_texture(
             atlas, options.texture.texel_m,
             lambda share: told(_BEFORE_FILL + (1.0 - _BEFORE_FILL) * share),
+            ground=atlas.spread(~raised.wall),
         )  # fmt: skip
     else:
         pixels, plain = atlas.pixels, atlas.surface & ~atlas.seen
