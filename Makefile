@@ -136,8 +136,8 @@ test-browser: setup
 	else echo "== browser tests: SKIPPED, there is no Chromium (see above)" >&2; fi
 
 bench: setup ## speed, memory and accuracy tables; dated results go to benchmarks/results
-	@for file in $$(grep -l '^if __name__' benchmarks/*.py benchmarks/*/*.py); do \
-		PYTHONPATH=benchmarks $(STAGE) "$$file" $(PY) "$$file"; done
+	@for name in $$($(PY) benchmarks | cut -d' ' -f1); do \
+		$(STAGE) "$$name" $(PY) benchmarks "$$name"; done
 
 pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/pictures.py

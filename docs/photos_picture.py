@@ -35,9 +35,9 @@ def main() -> None:
 
 def rendered(street: Path) -> Path:
     """Photos of a street with a known coarse model."""
-    script = ROOT / "benchmarks" / "street_sets.py"
+    script = [str(ROOT / "benchmarks"), "photos/street_sets"]
     options = ["--place", "street", "--photos", "40", "--seed", SEED]
-    subprocess.run([sys.executable, str(script), str(street), *options], check=True)
+    subprocess.run([sys.executable, *script, str(street), *options], check=True)
     return street
 
 

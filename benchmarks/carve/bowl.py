@@ -1,6 +1,6 @@
 """A bowl whose hollow no silhouette shows: what its colours carve, beside the truth.
 
-`python benchmarks/carve/bowl.py [--no-keep]` renders it, and keeps
+`python benchmarks carve/bowl [--no-keep]` renders it, and keeps
 `benchmarks/results/carve-bowl.md`.
 """
 

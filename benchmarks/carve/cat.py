@@ -1,6 +1,6 @@
 """A walking cat rendered from rings of cameras: its hull beside one that is computed otherwise.
 
-`python benchmarks/carve/cat.py [--data FOLDER] [--no-keep]` renders silhouettes of a mesh, carves
+`python benchmarks carve/cat [--data FOLDER] [--no-keep]` renders silhouettes of a mesh, carves
 them, and counts the voxels whose centres every silhouette has, one look at a pixel each, in numpy:
 no octree, no distances. It keeps `benchmarks/results/carve-cat.md`.
 """

@@ -1,6 +1,6 @@
 """Carved objects: the thesis's table 4.1 beside ours, and silhouettes that were left out.
 
-`python benchmarks/carve/objects.py [--data FOLDER] [--no-keep]` takes the Oxford dinosaur and
+`python benchmarks carve/objects [--data FOLDER] [--no-keep]` takes the Oxford dinosaur and
 Middlebury's sparse rings, and keeps `benchmarks/results/carve.md`.
 """
 

@@ -1,6 +1,6 @@
 """Turntables with their angles withheld: what the silhouettes alone say, beside the truth.
 
-`python benchmarks/carve/turntable.py [--data FOLDER] [--no-keep]` takes the Oxford dinosaur and
+`python benchmarks carve/turntable [--data FOLDER] [--no-keep]` takes the Oxford dinosaur and
 Middlebury's sparse ring of the dino, and keeps `benchmarks/results/carve-turntable.md`.
 """
 

@@ -1,6 +1,6 @@
 """How `veduta dense` grows: processor time and memory by images and by pixels.
 
-python benchmarks/dense/growth.py [--keep]: a rendered facade from 50 to 200 places, and from 50 at
+python benchmarks dense/growth [--keep]: a rendered facade from 50 to 200 places, and from 50 at
 two sizes; each run is a process of its own, whose processor time and peak of memory (resident)
 are the kernel's figures. Nothing is scored here.
 """

@@ -1,6 +1,6 @@
 """`veduta dense` killed with SIGKILL at ten random moments: how many depth maps are made again.
 
-python benchmarks/dense/killed.py [--keep]: one call on ten rendered photos, killed ten times and
+python benchmarks dense/killed [--keep]: one call on ten rendered photos, killed ten times and
 begun again each time. A depth map that is begun and not found on disk after a kill is lost. The
 result is compared, byte for byte, with that of a call that nobody killed.
 """

@@ -1,6 +1,6 @@
 """Depths of `veduta dense` against laser points on buildings, beside OpenCV's StereoSGBM.
 
-python benchmarks/dense/kitti_buildings.py [--frames 6,7,8] [--judged 6,7,8] [--keep]: the stereo
+python benchmarks dense/kitti_buildings [--frames 6,7,8] [--judged 6,7,8] [--keep]: the stereo
 views of these frames of laser/kitti00 go in as one set of cameras; the laser points of class 50
 that the judged frames' left camera sees are the truth. Covered: points with a depth at their pixel.
 Right: of those, within 3 % of the range. What is chosen by this benchmark is chosen on frames 0 to

@@ -1,6 +1,6 @@
 """`veduta dense --method linking` beside tables 3.1 and 3.2 of Moslah's thesis.
 
-python benchmarks/dense/linking.py [--cameras DIR] [--no-keep]: table 3.1 is the matching of one
+python benchmarks dense/linking [--cameras DIR] [--no-keep]: table 3.1 is the matching of one
 rectified pair at given sizes and ranges of disparities, of pictures of noise: the time does not
 depend on what they show. Table 3.2 is a set of photos after `veduta photos`: Merton College I,
 three photos at 640 x 480, with the range of disparities that its sparse points ask for. Where there

@@ -1,6 +1,6 @@
 """Points of `veduta dense` against rendered facades whose surfaces are known.
 
-python benchmarks/dense/synthetic_truth.py [--seeds 41,42] [--peer PYTHON] [--keep]: five photos of
+python benchmarks dense/synthetic_truth [--seeds 41,42] [--peer PYTHON] [--keep]: five photos of
 each facade are rendered by ray casting (`veduta.synthetic`, which shares no function with what is
 measured). Accuracy is the share of the points that lie within 5, 10 and 20 mm of the true surface,
 completeness the share of the true surface that at least two photos see with a point that near, F1

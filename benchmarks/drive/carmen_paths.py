@@ -3,7 +3,7 @@
 Of a log only the ranges and the order of its laser lines are read; its poses, which are the
 answer, are compared with afterwards.
 
-    python benchmarks/drive/carmen_paths.py [DATA]
+    python benchmarks drive/carmen_paths [DATA]
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ The labelled points of each scan are looked up in the image taken with it: cars,
 plants must be hidden, building and road must not. The scanner of the paper is coarser than this
 one: floods start from all foreground points, and from a few of them, the rest being truth alone.
 
-    python benchmarks/drive/image_foreground.py [DATA] [IMAGES]
+    python benchmarks drive/image_foreground [DATA] [IMAGES]
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 A chain of matches of each scan onto the one before starts the search for each relation's pair; the
 corrected poses are never read.
 
-    python benchmarks/drive/intel_relations.py [DATA]
+    python benchmarks drive/intel_relations [DATA]
 """
 
 from __future__ import annotations

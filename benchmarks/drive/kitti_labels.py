@@ -4,7 +4,7 @@
 nearer than the labelled facade of their column: cars, poles and trunks found, plants found,
 building kept. The street was looked at while the thresholds were set: nothing of it is held out.
 
-    python benchmarks/drive/kitti_labels.py [DATA]
+    python benchmarks drive/kitti_labels [DATA]
 """
 
 from __future__ import annotations

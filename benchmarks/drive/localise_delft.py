@@ -1,6 +1,6 @@
 """Twenty listed starts, 20 m and 20 degrees off, in the Delft tile: does the drive find its place?
 
-python benchmarks/drive/localise_delft.py [DATA] [CELL_M]
+python benchmarks drive/localise_delft [DATA] [CELL_M]
 """
 
 from __future__ import annotations

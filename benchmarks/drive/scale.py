@@ -1,6 +1,6 @@
 """Processor time and peak memory of the whole command over the length of a synthetic drive.
 
-    python benchmarks/drive/scale.py FOLDER [--km 0.5 1 2 6.769] [--spacing-m 0.25] [--images-m 0]
+    python benchmarks drive/scale FOLDER [--km 0.5 1 2 6.769] [--spacing-m 0.25] [--images-m 0]
         [--minutes 3.5]
 
 The path comes from horizontal scans; there is no surface model. Images are taken on the first

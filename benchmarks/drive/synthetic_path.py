@@ -1,6 +1,6 @@
 """The path of synthetic drives from horizontal scans and a surface model, against the truth.
 
-python benchmarks/drive/synthetic_path.py [SEEDS] [LENGTH_M]
+python benchmarks drive/synthetic_path [SEEDS] [LENGTH_M]
 """
 
 from __future__ import annotations

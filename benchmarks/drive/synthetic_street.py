@@ -4,7 +4,7 @@ The truth is rendered by `veduta.synthetic.drives`, which shares no function wit
 variant breaks an assumption of section 5: houses that step back, a hedge before everything, lost
 scans.
 
-    python benchmarks/drive/synthetic_street.py [SEEDS]
+    python benchmarks drive/synthetic_street [SEEDS]
 """
 
 from __future__ import annotations

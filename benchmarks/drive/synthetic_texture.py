@@ -1,6 +1,6 @@
 """Textures of synthetic drives with images, against the same fronts without what stood before them.
 
-python benchmarks/drive/synthetic_texture.py FOLDER [SEEDS] [FIRST]
+python benchmarks drive/synthetic_texture FOLDER [SEEDS] [FIRST]
 
 Of each seed a drive is shot into FOLDER, which keeps its row, so that a run may be cut in pieces.
 Holes of the atlas wider than a window are filled by the verb and by OpenCV's two inpaintings, on

@@ -1,6 +1,6 @@
 """Table 6.1 on our sets: single elements by the thesis's detectors and by the learned eyes.
 
-    python benchmarks/facade/elements.py [ecp] [artdeco] [cmp] [street] [renders]
+    python benchmarks facade/elements [ecp] [artdeco] [cmp] [street] [renders]
                                          [--images N] [--rows FILE] [--most N] [--draft]
 
 Windows, balconies and doors: recall and precision at an overlap (intersection over union) of 0.5,

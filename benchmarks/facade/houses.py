@@ -1,6 +1,6 @@
 """Party walls between the houses of a photo: fitted on some pictures of CMP, measured on others.
 
-    python benchmarks/facade/houses.py [--signs FILE] [--most 20] [--draft]
+    python benchmarks facade/houses [--signs FILE] [--most 20] [--draft]
 
 `houses_marked.json` has where one house ends and the next begins, as shares of the width, marked
 by eye in pictures of CMP: those of odd numbers below 240 are fitted to, those from 241 on are

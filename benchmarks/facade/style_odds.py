@@ -1,6 +1,6 @@
 """Fit what the odds of styles are made with: a temperature, and what no style counts.
 
-    python benchmarks/facade/style_odds.py --renders ROWS --none ROWS [--check ROWS] [--draft]
+    python benchmarks facade/style_odds --renders ROWS --none ROWS [--check ROWS] [--draft]
 
 ROWS are files that `style_synthetic.py --rows` (seeds below 100) and `style_photos.py cmp-seen
 --rows` wrote: the likelihood and prior mass of each candidate. A render counts twice: with its own

@@ -1,6 +1,6 @@
 """Which style the fronts of real photos have.
 
-    python benchmarks/facade/style_photos.py [ecp | cmp | cmp-seen] [--images 20] [--rows FILE]
+    python benchmarks facade/style_photos [ecp | cmp | cmp-seen] [--images 20] [--rows FILE]
 
 ECP val is Haussmann, by what the set is; nothing was trained or tuned on any picture of the set.
 CMP, of which pictures are taken that the eyes were not trained on, has fronts of many kinds and

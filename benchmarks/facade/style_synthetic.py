@@ -1,6 +1,6 @@
 """Styles and structures found again in rendered fronts whose structure is known.
 
-    python benchmarks/facade/style_synthetic.py [STYLE ...] [--fronts 6] [--first 100] [--rows FILE]
+    python benchmarks facade/style_synthetic [STYLE ...] [--fronts 6] [--first 100] [--rows FILE]
 
 Fronts of five styles are drawn by the rules, rendered and read as photos are, with the picture's
 corners as those of the front. Counted: whether the likeliest style is the right one; of the

@@ -1,6 +1,6 @@
 """Fronts behind balconies, trees, hedges, vehicles, fences and people: the hidden part filled.
 
-    python benchmarks/facade/texture_cleared.py [--seeds 8] [--pictures DIR]
+    python benchmarks facade/texture_cleared [--seeds 8] [--pictures DIR]
 
 `hidden_fronts.py` makes them, each with the same front without what hides it. The facade is read
 from the hidden picture, as `veduta facade` does; the true holes are given to all ways alike, and

@@ -1,6 +1,6 @@
 """Animals with legs: drawn clips with known truth, and a walking cat from sides not given.
 
-`python benchmarks/fauna/limbed.py [--clips N] [--kept FILE] [--no-keep]` prints a table and keeps
+`python benchmarks fauna/limbed [--clips N] [--kept FILE] [--no-keep]` prints a table and keeps
 it in `benchmarks/results/fauna-limbed.md`. Each clip that is done is kept in FILE, so that a run
 that was broken off goes on. Real data is read from `$VEDUTA_DATA`, else from `../shared/data`.
 """

@@ -1,6 +1,6 @@
 """Animals without limbs: axes, silhouettes that were not seen, new motion, paths, and their times.
 
-`python benchmarks/fauna/limbless.py` prints a table and keeps it in
+`python benchmarks fauna/limbless` prints a table and keeps it in
 `benchmarks/results/fauna-limbless.md`. `--times` measures times alone, for a machine without other
 work, and keeps them in `fauna-times.md`.
 Real data is read from `$VEDUTA_DATA`, else from `../shared/data`.

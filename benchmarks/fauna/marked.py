@@ -1,6 +1,6 @@
 """Joints of a real dog: from silhouettes alone, and with a part of the frames marked.
 
-`python benchmarks/fauna/marked.py [--no-keep]` prints a table and keeps it in
+`python benchmarks fauna/marked [--no-keep]` prints a table and keeps it in
 `benchmarks/results/fauna-marked.md`. Real data is read from `$VEDUTA_DATA`, else from
 `../shared/data`.
 """

@@ -1,6 +1,6 @@
 """Animals with legs on their paths: feet on slopes, the body on the path, and how long it takes.
 
-`python benchmarks/fauna/on_path.py ANIMAL.json ... [--no-keep]` takes documents that `veduta fauna`
+`python benchmarks fauna/on_path ANIMAL.json ... [--no-keep]` takes documents that `veduta fauna`
 has made (of the walking cat, and of a drawn lizard), prints a table and keeps it in
 `benchmarks/results/fauna-on-path.md`.
 """

@@ -1,6 +1,6 @@
 """Real animals with legs: the re-posed model against silhouettes that the fit did not see.
 
-`python benchmarks/fauna/unseen.py [--only mouse|goat] [--kept FILE] [--no-keep]` prints a table and
+`python benchmarks fauna/unseen [--only mouse|goat] [--kept FILE] [--no-keep]` prints a table and
 keeps it in `benchmarks/results/fauna-unseen.md`. Real data is read from `$VEDUTA_DATA`, else from
 `../shared/data`. The worm is in `limbless.py`.
 """

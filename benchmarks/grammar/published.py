@@ -1,6 +1,6 @@
 """Rule files in the manner of published projects: how many derive as the reference has it.
 
-`python benchmarks/grammar/published.py [--keep]` derives the files of two folders beside the tests,
+`python benchmarks grammar/published [--keep]` derives the files of two folders beside the tests,
 `published` and `published_more`, on a lot of 20 x 30 m and compares what they report with what was
 worked out by hand. How many came out right at the first try was written down then.
 """

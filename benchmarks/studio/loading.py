@@ -1,6 +1,6 @@
 """What places cost in the browser: bytes, textures, draws, and the time to the first picture.
 
-`python benchmarks/studio/loading.py NAME=FOLDER ... [--mbit 1.5,10] [--result loading]` serves each
+`python benchmarks studio/loading NAME=FOLDER ... [--mbit 1.5,10] [--result loading]` serves each
 place with `veduta view`, opens it in Chromium (`visit.mjs`) and keeps
 `benchmarks/results/studio-RESULT.md`. Without folders it makes 60 lots of its own. With
 `--kept FILE` rows that are there already are not measured again: a call that is stopped goes on.

@@ -1,6 +1,6 @@
 """What a click costs in a town of tiles, without and with trees over its triangles.
 
-`python benchmarks/studio/picking.py FOLDER` serves the place and asks `picking.mjs` from above,
+`python benchmarks studio/picking FOLDER` serves the place and asks `picking.mjs` from above,
 along a street and before a front; keeps `benchmarks/results/studio-picking.md`.
 """
 

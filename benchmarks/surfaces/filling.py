@@ -1,6 +1,6 @@
 """Holes wider than a window in synthetic facades: filled, beside OpenCV's two inpaintings.
 
-    python benchmarks/surfaces/filling.py [--seeds 12] [--pictures DIR]
+    python benchmarks surfaces/filling [--seeds 12] [--pictures DIR]
 
 Facades with known truth are rectified; a hole with a third of a window of wall around it is cut
 over each of two windows of every facade. The seeds start at 100: what was looked at while the step

@@ -1,6 +1,6 @@
 """The flow between two key positions of a synthetic gorge beside the exact one, by scale factor.
 
-`python benchmarks/walk/gorge_flow.py [--keys 15] [--draft]` keeps
+`python benchmarks walk/gorge_flow [--keys 15] [--draft]` keeps
 `benchmarks/results/walk-gorge-flow.md`: the
 paper's figure 4, for one scale and for ten.
 """

@@ -1,6 +1,6 @@
 """A gorge of 15 key positions with 3 views each: what it takes to prepare it, and how good it is.
 
-`python benchmarks/walk/gorge_mosaics.py [--draft] [--keys 15]` keeps
+`python benchmarks walk/gorge_mosaics [--draft] [--keys 15]` keeps
 `benchmarks/results/walk-gorge-mosaics.md`.
 """
 

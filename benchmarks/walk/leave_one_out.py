@@ -1,6 +1,6 @@
 """Views that were left out, made from the key positions on both sides, beside five peers.
 
-`python benchmarks/walk/leave_one_out.py [SET ...] [--pictures FOLDER]` keeps
+`python benchmarks walk/leave_one_out [SET ...] [--pictures FOLDER]` keeps
 `benchmarks/results/walk-leave-one-out.md`.
 """
 

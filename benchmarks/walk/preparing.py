@@ -1,6 +1,6 @@
 """Preparing a gorge's walk of several views at each key position, and playing it in Chromium.
 
-`python benchmarks/walk/preparing.py FOLDER [--keys 5] [--width-px 1184]`: shoots the record into
+`python benchmarks walk/preparing FOLDER [--keys 5] [--width-px 1184]`: shoots the record into
 FOLDER/record unless it is there, prepares it into FOLDER/walk, plays that, and keeps
 `benchmarks/results/walk-preparing.md`. With `--play` FOLDER is a walk, and only played.
 """

@@ -1,6 +1,6 @@
 """Relative poses of key positions beside the true ones.
 
-`python benchmarks/walk/relative_poses.py [--draft]` keeps `benchmarks/results/walk-poses.md`.
+`python benchmarks walk/relative_poses [--draft]` keeps `benchmarks/results/walk-poses.md`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Disparities beside the truth: shares of pixels that are wrong, and the time.
 
-`python benchmarks/walk/stereo_rates.py [--draft]` keeps `benchmarks/results/walk-stereo.md`.
+`python benchmarks walk/stereo_rates [--draft]` keeps `benchmarks/results/walk-stereo.md`.
 """
 
 from __future__ import annotations

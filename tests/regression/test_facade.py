@@ -1,6 +1,6 @@
 """Bounds on labelled facades, from below and from above.
 
-`benchmarks/facade.py` measures the same and more, and says what each number means.
+`benchmarks/facade/facade.py` measures the same and more, and says what each number means.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Not here: gcp/neg_px (a unit test of marks outside of their photos), gcp/swapped_latlon (one mark of
 one point: nothing contradicts it), and the drone survey, whose photos are not among the cases; a
-painted village stands for it (`benchmarks/photos_nadir.py`).
+painted village stands for it (`benchmarks/photos/photos_nadir.py`).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Bounds on real photos: straight edges of a street, and facades under known cameras.
 
-`benchmarks/rectify.py` measures the same on more views and says what each number means.
+`benchmarks/photos/rectify.py` measures the same on more views and says what each number means.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Every type of roof over 120 real outlines that other roof software fails on.
 
-`benchmarks/roof_checks.py` says how they are judged; docs/roofs.md has the table.
+`benchmarks/measuring/roof_checks.py` says how they are judged; docs/roofs.md has the table.
 """
 
 from __future__ import annotations

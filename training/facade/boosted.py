@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "benchmarks/facade"), str(ROOT / "benchmarks")]
+sys.path[:0] = [str(ROOT / "benchmarks" / name) for name in ("facade", "measuring")]
 
 from element_fronts import STYLES, element_front  # noqa: E402
 from facade_measures import Matches, match, overlaps  # noqa: E402

@@ -2,7 +2,7 @@
 //! up, also where faces lie nearly on faces.
 //!
 //! With `BOOLEANS_TO` in the environment, the pairs are also written to that file with the volumes
-//! found, a line of JSON each, for `benchmarks/booleans.py`, which asks another library; as many as
+//! found, a line of JSON each, for `benchmarks/grammar/booleans.py`, which asks another library; as many as
 //! `FUZZ_CASES` says.
 
 #![allow(clippy::unwrap_used)] // helpers of tests

@@ -40,8 +40,8 @@ _MAX_STEPS = 30
 _END_NOISE_PX = 0.7
 
 # Of 240 views of 60 facades of ECP and CMP under known cameras, none of them judged in
-# benchmarks/rectify.py: the median error of a segment's direction is that of ends off by 0.35 to
-# 0.55 px at every length from 8 to 50 px. The scatter on the wall lies in a range of 0.9 to 1.2
+# `benchmarks photos/rectify`: the median error of a segment's direction is that of ends off by 0.35
+# to 0.55 px at every length from 8 to 50 px. The scatter on the wall lies in a range of 0.9 to 1.2
 # degrees that comes to the same (docs/facade-method.md).
 _MEASURED_END_NOISE_PX = 0.5
 _WALL_SCATTER_RAD = math.radians(1.0)

@@ -35,7 +35,7 @@ def toured(document: PlanDocument, speed_m_s: float = SPEED_M_S) -> tuple[House,
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_tours_of_houses_keep_what_they_promise(seed: int) -> None:
-    """Against the model as it is written, by rays: see benchmarks/plan_tour.py."""
+    """Against the model as it is written, by rays: see benchmarks/plan/plan_tour.py."""
     drawn = make_house(seed, storeys=1)
     document = document_of(drawn)
     house, tour = toured(furnished(document, seed) if seed % 2 else document)

@@ -1,4 +1,4 @@
-//! The crate `symbios-shape` on its own example and on a facade of boxes, for benchmarks/grammar.py.
+//! The crate `symbios-shape` on its own example and on a facade of boxes, for benchmarks/grammar/grammar.py.
 //!
 //! `symbios-peer CORES COUNT` prints one line per grammar: its name, terminals, seconds.
 
@@ -18,7 +18,7 @@ const BOXES: Rules = &[
     ("Roof", "Taper(0.75) I(\"RoofMesh\")"),
 ];
 
-/// Floors and bays of a facade; benchmarks/grammar.py has the same in CGA.
+/// Floors and bays of a facade; benchmarks/grammar/grammar.py has the same in CGA.
 const FACADE: Rules = &[
     ("Lot", "Extrude(18) Repeat(Y, 3) { Floor }"),
     ("Floor", "Repeat(X, 2.4) { Bay }"),

@@ -6,7 +6,7 @@ scored for every type by how alike the edges are, how near the lines between the
 type has them, and how much of the area between is free. The paper shows its four drawings of
 windows and nine of doors in figures that its text does not describe: those of windows here are
 the ones of `classify.window_type`; of doors the free way with a leaf at one of its edges.
-`benchmarks/plan_openings.py` measures it beside `along`.
+`benchmarks/plan/plan_openings.py` measures it beside `along`.
 """
 
 from __future__ import annotations

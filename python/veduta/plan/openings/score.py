@@ -3,7 +3,7 @@
 An opening is right that overlaps a true one by half along its wall and is a door, window or gap as
 that is. The shares were counted on 24 development sheets of `synthetic.plans` (three of each of
 eight styles, seeds 0 to 22), with one right and one wrong one added to each count (Laplace's rule
-of succession). `benchmarks/plan_openings.py` counts them on other sheets.
+of succession). `benchmarks/plan/plan_openings.py` counts them on other sheets.
 """
 
 from __future__ import annotations

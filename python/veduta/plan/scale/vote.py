@@ -3,7 +3,7 @@
 Evidence is often wrong altogether, not inexact: a number is misread by ten, a size belongs to the
 next room, a cupboard was measured. So the mode of a kernel density over the logarithm of the scale
 is taken, in which each voter counts once, by that of its readings that fits best; then the mean of
-what lies near it, weighted by precision. Figures in `benchmarks/plan.py`.
+what lies near it, weighted by precision. Figures in `benchmarks/plan/plan.py`.
 """
 
 from __future__ import annotations
