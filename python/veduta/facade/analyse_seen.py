@@ -14,6 +14,7 @@ from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
 from veduta.facade.floors import Floors, split_floors
 from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
 from veduta.facade.heads import with_heads
+from veduta.facade.hidden_windows import hidden_windows
 from veduta.facade.houses import HouseParameters, find_party_walls, house_spans, storey_of
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
@@ -22,6 +23,7 @@ from veduta.facade.rows import gather_rows
 from veduta.facade.scale import scale_notes
 from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop
 from veduta.facade.seen_front import (
+    BEFORE,
     WALL,
     FrontParameters,
     hidden_notes,
@@ -78,6 +80,11 @@ class _Front:
     def wall(self) -> Float:
         """(h, w) the chance of wall, at the size of the evidence."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), *WALL)
+
+    @property
+    def hidden(self) -> Float:
+        """(h, w) the chance that something stands before the front, at the same size."""
+        return self.seen.chance_at((self.evidence.width, self.evidence.height), *BEFORE)
 
     def between(self, left: int, right: int) -> list[SeenElement]:
         """The elements between two columns of the evidence, from the left one on."""
@@ -253,6 +260,12 @@ def _read(
         columns = columns_of(elements)
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)
         boxes = with_heads(boxes, inner.lab)
+        above = len(storeys.floors.boundaries) - 1
+        before = front.hidden[: inner.height, sides.left : sides.right]
+        hidden = hidden_windows(boxes, columns, above, before)
+        step.counts["hidden"] = len(hidden)
+        # Balconies are painted last.
+        boxes = sorted([*boxes, *hidden], key=lambda box: box.kind == "balcony")
         step.counts["arched"] = sum(bool(box.outline) for box in boxes)
         for kind in front.seen.kinds:
             step.counts[kind] = sum(box.kind == kind for box in boxes)
@@ -264,6 +277,8 @@ def _read(
         )  # fmt: skip
         document = compose(parse, front.rectified, front.source, options)
         notes = [*document.notes, *hidden_notes(front.seen, FrontParameters())]
+        if hidden:
+            notes.append(f"windows: {len(hidden)} are hidden, and taken to be as those beside them")
         return document.model_copy(update={"notes": notes})
 
 

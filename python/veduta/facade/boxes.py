@@ -14,7 +14,8 @@ _CERTAINTY = 2.0
 class Box:
     """A rectangle in analysis pixels, with what says that it is there (0..1).
 
-    outline: its shape where that is no rectangle, corners in order.
+    outline: its shape where that is no rectangle, corners in order. is_inferred: nothing of it is
+    seen, but others say that it is there.
     """
 
     kind: str
@@ -26,6 +27,7 @@ class Box:
     column: int | None
     score: float
     outline: tuple[tuple[float, float], ...] = ()
+    is_inferred: bool = False
 
     def part(self, top: int = 0) -> tuple[slice, slice]:
         """Rows and columns of the box in an image whose first row is `top`."""

@@ -137,6 +137,7 @@ def _element(box: Box, k: _Enlargement, facade: FacadeBox, m: float) -> Element:
     y, height = round(box.y * k.down, 2), round(box.height * k.down, 2)
     width = min(width, facade.x_px + facade.width_px - x)
     height = min(height, facade.y_px + facade.height_px - y)
+    is_measured = box.score >= SURE_SCORE and not box.is_inferred
     return Element.model_validate(
         {
             "class": box.kind,
@@ -152,7 +153,7 @@ def _element(box: Box, k: _Enlargement, facade: FacadeBox, m: float) -> Element:
             "outline_px": _outline(box, k, facade) or None,
             "floor": box.floor,
             "column": box.column,
-            "provenance": "measured" if box.score >= SURE_SCORE else "inferred",
+            "provenance": "measured" if is_measured else "inferred",
         }
     )
 

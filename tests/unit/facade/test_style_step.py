@@ -13,10 +13,20 @@ from test_style_search import CELLS, WIDTH_M
 from veduta.facade.document import FacadeDocument
 from veduta.facade.options import StyleOptions
 from veduta.facade.style import find_style, require_style
+from veduta.facade.style.deformed import deformed
 from veduta.facade.style.elevation import elevation
 from veduta.facade.style.grammar import ANY_FRONT, LOD, style_grammar
-from veduta.facade.style.infer import AUTO, StyleFound, candidate_names, infer_style, ranked
+from veduta.facade.style.infer import (
+    AUTO,
+    InferParameters,
+    StyleFound,
+    candidate_names,
+    infer_style,
+    log_odds_of_none,
+    ranked,
+)
 from veduta.facade.style.labels import Front, front_of, painted
+from veduta.facade.style.likelihood import log_likelihood
 from veduta.facade.style.observed import LABELS, Observed, observed_of
 from veduta.facade.style.prior import Real
 from veduta.facade.style.search import SearchParameters
@@ -119,11 +129,40 @@ def test_an_unknown_style_is_refused(name: str) -> None:
         require_style(name)
 
 
-def test_a_front_without_a_style_is_never_helped_by_what_it_counts() -> None:
-    front, observed = seen_as("haussmann")
-    found = infer_style(document_of(front), observed, "haussmann", STEPS, lambda *_: None)
+def test_none_of_the_styles_is_likely_where_all_fit_badly() -> None:
+    assert log_odds_of_none(60.0, 100.0, 500.0) > log_odds_of_none(100.0, 100.0, 500.0)
+    assert log_odds_of_none(100.0, 100.0, 500.0) > log_odds_of_none(300.0, 300.0, 500.0)
+    own = InferParameters(none_offset=1.0, none_worse=2.0, none_apart=4.0)
+    assert log_odds_of_none(50.0, 30.0, 100.0, own) == pytest.approx(1.0 - 0.4 - 2.0)
+
+
+def test_chances_are_those_of_the_odds(haussmann: StyleFound) -> None:
+    """None of the styles against all, by its own odds; the styles by their evidences."""
+    found = ranked(haussmann.candidates, haussmann.chosen)
+    by_name = dict(zip([one.name for one in found.candidates], found.chances, strict=True))
+    styles = [one for one in found.candidates if one.name != ANY_FRONT]
     none = next(one for one in found.candidates if one.name == ANY_FRONT)
-    for likelihood in (-100.0, 100.0):
-        best = replace(none.best, log_likelihood=likelihood)
-        mass = replace(none, best=replace(none.best, log_likelihood=0.0), real=None).log_evidence
-        assert replace(none, best=best, real=None).log_evidence - mass <= likelihood
+    best = max(styles, key=lambda one: one.log_evidence)
+    most = float(best.posterior.observed.ratios.max(axis=0).sum())
+    odds = log_odds_of_none(best.log_seen, none.log_seen, most)
+    told = by_name[ANY_FRONT] / (1.0 - by_name[ANY_FRONT])
+    assert np.log(told) == pytest.approx(odds - np.log(len(styles)), abs=1e-6)
+    one, other = styles[:2]
+    apart = (one.log_evidence - other.log_evidence) / one.parameters.temperature
+    assert np.log(by_name[one.name] / by_name[other.name]) == pytest.approx(apart, abs=1e-6)
+
+
+def test_a_house_that_is_a_little_off_is_found_again() -> None:
+    """Storeys and bays that are not quite those of the rules: deformed, it is as likely again."""
+    front, observed = seen_as("haussmann")
+    boxes = {
+        kind: np.column_stack([b[:, 0], b[:, 1] ** 1.03, b[:, 2], b[:, 3] ** 1.03])
+        for kind, b in front.boxes.items()
+    }
+    off = replace(front, boxes=boxes, eaves_m=front.eaves_m**1.03)
+    drawn = log_likelihood(off, observed)
+    found = deformed(off, observed)
+    assert found.log_cost <= 0.0
+    assert found.log_total > drawn
+    assert found.log_likelihood > drawn + 0.3 * (log_likelihood(front, observed) - drawn)
+    assert deformed(front, observed).log_total >= log_likelihood(front, observed)

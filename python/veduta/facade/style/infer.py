@@ -50,13 +50,16 @@ class InferParameters:
     near_steps: candidates that are less likely than the best by no more are walked on for so many
     steps. All three save time.
 
-    none_counts: what the likelihood of the best front without a style counts, as that may have any
-    sizes and a style's are those of its rules, which no real house has quite. temperature: what the
-    logarithms of the evidences are divided by, as the cells of a front are not independent. Both
-    were fitted together, by the chance that they give to what is right, on renders of five styles
-    (with the own style, and with it taken away: then none is right) and on pictures of CMP that the
-    eyes were trained on, which are taken to have none of the styles
-    (`benchmarks/facade/style_odds.py`): few of each yet, four and six.
+    temperature: what the logarithms of the evidences of styles are divided by, as the cells of a
+    front are not independent. none_offset, none_worse, none_apart: the logarithm of the odds that
+    the front has none of the styles, where that is as likely as not before the photo, is the offset
+    less `none_worse` times how much likelier the best style is than the best front without one,
+    less `none_apart` times how likely the style is, both as shares of what labels of cells without
+    any rules could have. None of the styles is before the photo as likely as each of them.
+
+    All four were fitted on renders of five styles with the faults of real fronts (with the own
+    style, and with it taken away: then none is right) and on pictures of CMP that the eyes were
+    trained on, which are taken to have none of the styles (`benchmarks/facade/style_odds.py`).
     """
 
     assumed: Real = ASSUMED
@@ -66,8 +69,10 @@ class InferParameters:
     hopeless_nats: float = 70.0
     near_nats: float = 35.0
     near_steps: int = 40
-    none_counts: float = 1.0
     temperature: float = 13.0
+    none_offset: float = 6.2
+    none_worse: float = 9.8
+    none_apart: float = 11.7
 
 
 USUAL = InferParameters()
@@ -94,15 +99,16 @@ class Candidate:
         return self.posterior.grammar.name
 
     @property
+    def log_seen(self) -> float:
+        """Logarithm of the likelihood of the best structure, deformed as real houses are."""
+        return self.best.log_likelihood if self.real is None else self.real.log_total
+
+    @property
     def log_evidence(self) -> float:
         """About the logarithm of what the style gives to what was seen: the likelihood of its best
-        structure, deformed as real houses are, with the prior mass of those that are like it.
+        structure, with the prior mass of those that are like it.
         """
-        seen = self.best.log_likelihood if self.real is None else self.real.log_total
-        if self.name == ANY_FRONT:
-            # Never more than it is: where all explain badly, this does no better for it.
-            seen = min(seen, self.parameters.none_counts * seen)
-        return seen + log_mass(self.posterior.grammar, self.best, self.parameters)
+        return self.log_seen + log_mass(self.posterior.grammar, self.best, self.parameters)
 
 
 @dataclass(frozen=True)
@@ -186,11 +192,40 @@ def infer_style(
 
 def ranked(candidates: Sequence[Candidate], chosen: Candidate) -> StyleFound:
     """The candidates by falling odds; before the photo all are equally likely."""
-    ordered = sorted(candidates, key=lambda one: -one.log_evidence)
-    logs = np.array([one.log_evidence / one.parameters.temperature for one in ordered])
-    shares = np.exp(logs - logs.max())
-    chances = tuple((shares / shares.sum()).tolist())
-    return StyleFound(tuple(ordered), chances, chosen)
+    own = chosen.parameters
+    styles = [one for one in candidates if one.name != ANY_FRONT]
+    none = [one for one in candidates if one.name == ANY_FRONT]
+    rest = 1.0
+    shares: dict[str, float] = {}
+    if none and styles:
+        best = max(styles, key=lambda one: one.log_evidence)
+        most = float(chosen.posterior.observed.ratios.max(axis=0).sum())
+        log_odds = log_odds_of_none(best.log_seen, none[0].log_seen, most, own)
+        shares[ANY_FRONT] = 1.0 / (1.0 + len(styles) * math.exp(-min(log_odds, 700.0)))
+        rest = 1.0 - shares[ANY_FRONT]
+    elif none:
+        shares[ANY_FRONT] = 1.0
+    logs = np.array([one.log_evidence / own.temperature for one in styles])
+    if len(logs):
+        parts = np.exp(logs - logs.max())
+        parts *= rest / parts.sum()
+        shares |= {one.name: part for one, part in zip(styles, parts.tolist(), strict=True)}
+    ordered = sorted(candidates, key=lambda one: -shares[one.name])
+    return StyleFound(tuple(ordered), tuple(shares[one.name] for one in ordered), chosen)
+
+
+def log_odds_of_none(
+    style: float, none: float, most: float, parameters: InferParameters = USUAL
+) -> float:
+    """Logarithm of the odds that a front has none of the styles, where both are as likely before.
+
+    style, none: logarithms of the likelihoods of the best of the styles, and of the best front
+    without one. most: what labels of cells could have without any rules.
+    """
+    scale = max(most, 1e-6)
+    own = parameters
+    worse = own.none_worse * (style - none) / scale
+    return own.none_offset - worse - own.none_apart * style / scale
 
 
 def _started(
