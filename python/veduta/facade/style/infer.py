@@ -69,10 +69,10 @@ class InferParameters:
     hopeless_nats: float = 70.0
     near_nats: float = 35.0
     near_steps: int = 40
-    temperature: float = 13.0
-    none_offset: float = 6.2
-    none_worse: float = 9.8
-    none_apart: float = 11.7
+    temperature: float = 15.33
+    none_offset: float = 6.0
+    none_worse: float = 7.5
+    none_apart: float = 11.9
 
 
 USUAL = InferParameters()
