@@ -1,6 +1,6 @@
 """What the eyes say of each pixel where a laser's labels tell what is there, and of hard pictures.
 
-    python benchmarks/facade/class_maps.py [--pictures FOLDER] [--draft]
+    python benchmarks facade/class_maps [--pictures FOLDER] [--draft]
 
 The labelled points of `laser/kitti00` are carried into the left colour picture; of several points
 in one cell the nearest counts. Judged is the class map that `look` gives of the whole picture: of
@@ -70,7 +70,8 @@ def grouped(seen: Seen) -> NDArray[np.int64]:
     """(h, w) of the picture: the likeliest group of each pixel; the last is none of them."""
     size = seen.width_px, seen.height_px
     chances = np.stack([seen.chance_at(size, *names) for names, _ in GROUPS.values()])
-    return np.concatenate([chances, 1.0 - chances.sum(axis=0)[None]]).argmax(axis=0)
+    every = np.concatenate([chances, 1.0 - chances.sum(axis=0)[None]])
+    return np.asarray(every.argmax(axis=0), np.int64)
 
 
 def labelled(
