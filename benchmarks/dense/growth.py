@@ -1,8 +1,9 @@
 """How `veduta dense` grows: processor time and memory by images and by pixels.
 
-python benchmarks dense/growth [--keep]: a rendered facade from 50 to 200 places, and from 50 at
-two sizes; each run is a process of its own, whose processor time and peak of memory (resident)
-are the kernel's figures. Nothing is scored here.
+python benchmarks dense/growth [--keep] [--method linking]: a rendered facade from 50 to 200
+places, and from 50 at two sizes, with little memory and with what is usual; each run is a process
+of its own, whose processor time and peak of memory (resident) are the kernel's figures. Nothing is
+scored here.
 """
 
 from __future__ import annotations
@@ -30,16 +31,18 @@ from veduta.synthetic.scene import RayScene
 from veduta.synthetic.styles import design
 
 SEED, AWAY_M = 51, 7.0
-MORE = ("--no-texture", "--agree", "1", "--max-triangles", "100000", "-q")
+MORE = ("--device", "cpu", "--no-texture", "--agree", "1", "--max-triangles", "100000", "-q")
 RUNS = (
-    ("linking", 50, 160),
-    ("linking", 100, 160),
-    ("linking", 200, 160),
-    ("linking", 50, 320),
-    ("patchmatch", 12, 160),
-    ("patchmatch", 24, 160),
+    ("linking", 50, 160, 0.5),
+    ("linking", 100, 160, 0.5),
+    ("linking", 200, 160, 0.5),
+    ("linking", 50, 320, 0.5),
+    ("linking", 200, 160, 4.0),
+    ("linking", 50, 320, 4.0),
+    ("patchmatch", 12, 160, 0.5),
+    ("patchmatch", 24, 160, 0.5),
 )
-"""Method, images, and their width (px)."""
+"""Method, images, their width (px), and --max-memory (GB)."""
 
 
 def write_photos(folder: Path, count: int, width: int) -> None:
@@ -73,16 +76,15 @@ def _write(folder: Path, number: int, camera: Camera, photo: NDArray[np.uint8]) 
     (folder / "cameras" / f"view{number:03d}.camera").write_text("\n".join(rows))
 
 
-def measured(method: str, count: int, width: int) -> Row:
+def measured(method: str, count: int, width: int, memory: float) -> Row:
     """A run of the verb with as many images."""
     with tempfile.TemporaryDirectory() as scratch:
         folder, out = Path(scratch) / "set", Path(scratch) / "out"
         write_photos(folder, count, width)
         command = [sys.executable, "-m", "veduta.cli.main", "dense", str(folder), "-o", str(out)]
         began = time.perf_counter()
-        child = os.posix_spawn(
-            sys.executable, [*command, "--method", method, *MORE], dict(os.environ)
-        )
+        given = ["--method", method, "--max-memory", str(memory)]
+        child = os.posix_spawn(sys.executable, [*command, *given, *MORE], dict(os.environ))
         _, status, used = os.wait4(child, 0)
         seconds = time.perf_counter() - began
         kept = sum(one.stat().st_size for one in out.rglob("*") if one.is_file())
@@ -92,6 +94,7 @@ def measured(method: str, count: int, width: int) -> Row:
         "method": method,
         "images": count,
         "px": f"{width} x {round(0.75 * width)}",
+        "--max-memory GB": memory,
         "megapixels": round(pixels, 2),
         "done": status == 0,
         "processor s": round(processor, 1),
@@ -106,8 +109,9 @@ def main() -> None:
     """Measure, and keep the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--keep", action="store_true")
+    parser.add_argument("--method", choices=("linking", "patchmatch"))
     given = parser.parse_args()
-    rows = [measured(*run) for run in RUNS]
+    rows = [measured(*run) for run in RUNS if given.method in (None, run[0])]
     notes = [
         "Depth maps with four neighbours, cloud and mesh; no texture. Other work ran beside.",
         f"Load at the end: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores.",

@@ -954,6 +954,9 @@ def distances_from_mesh(
     run counter-clockwise, and the nearest triangle of each.
     """
 
+def pieces_of_mesh(triangles: _Array2[np.uint32], vertices: int) -> _Array1[np.int32]:
+    """The piece (v,) of each of so many vertices of triangles (m, 3): those of one triangle are of one."""
+
 # surroundings.rs
 class Surroundings:
     """The shapes that lots put in the way of others: those that the first of the two passes makes."""

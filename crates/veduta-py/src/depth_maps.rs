@@ -64,8 +64,7 @@ fn rows_of<'py, T: numpy::Element>(
     rows: Vec<[T; 3]>,
 ) -> PyResult<Bound<'py, PyArray2<T>>> {
     let count = rows.len();
-    let flat: Vec<T> = rows.into_iter().flatten().collect();
-    let shaped = Array2::from_shape_vec((count, 3), flat)
+    let shaped = Array2::from_shape_vec((count, 3), rows.into_flattened())
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
     Ok(shaped.into_pyarray(py))
 }

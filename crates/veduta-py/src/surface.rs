@@ -6,7 +6,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyReadonlyArray3}
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use veduta_surface::{nearest_on_mesh, surface_nets, Grid, Surface, SurfaceError};
+use veduta_surface::{nearest_on_mesh, surface_nets, vertex_pieces, Grid, Surface, SurfaceError};
 
 create_exception!(_core, SurfaceFault, PyValueError);
 
@@ -62,6 +62,18 @@ fn distances_from_mesh<'py>(
     ))
 }
 
+/// The piece (v,) of each of so many vertices of triangles (m, 3): those of one triangle are of one.
+#[pyfunction]
+fn pieces_of_mesh<'py>(
+    py: Python<'py>,
+    triangles: PyReadonlyArray2<'py, u32>,
+    vertices: usize,
+) -> PyResult<Bound<'py, PyArray1<i32>>> {
+    let triangles = rows_of(&triangles)?;
+    let found = py.detach(|| vertex_pieces(&triangles, vertices));
+    Ok(found.map_err(fault_of)?.into_pyarray(py))
+}
+
 fn rows_of<T: numpy::Element + Copy>(array: &PyReadonlyArray2<'_, T>) -> PyResult<Vec<[T; 3]>> {
     let view = array.as_array();
     if view.ncols() != 3 {
@@ -78,5 +90,6 @@ fn rows_of<T: numpy::Element + Copy>(array: &PyReadonlyArray2<'_, T>) -> PyResul
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("SurfaceFault", m.py().get_type::<SurfaceFault>())?;
     m.add_function(wrap_pyfunction!(extract_surface, m)?)?;
+    m.add_function(wrap_pyfunction!(pieces_of_mesh, m)?)?;
     m.add_function(wrap_pyfunction!(distances_from_mesh, m)?)
 }

@@ -15,7 +15,6 @@ pub struct Surface {
 }
 
 const WITH_NEXT: usize = SIDE + 1;
-const NONE: u32 = u32::MAX;
 
 /// A block's voxels and the first ones of the blocks after it.
 struct Padded(Vec<Voxel>);
@@ -53,37 +52,54 @@ const fn padded_at(x: usize, y: usize, z: usize) -> usize {
     (z * WITH_NEXT + y) * WITH_NEXT + x
 }
 
+/// The vertices of a block: the cells that have one, sorted, and the number of the first's.
+#[derive(Clone, Default)]
+struct Cells {
+    first: u32,
+    cells: Vec<u16>,
+}
+
+impl Cells {
+    fn vertex(&self, cell: usize) -> Option<u32> {
+        let found = self.cells.binary_search(&(cell as u16)).ok()?;
+        Some(self.first + found as u32)
+    }
+}
+
+/// Blocks that are worked on at a time: more would only take more memory.
+const AT_ONCE: usize = 4096;
+
 /// The surface at distance 0. least: the weight that a voxel must have to be believed.
 pub fn surface(volume: &Volume, least: f32) -> Surface {
     let mut order: Vec<usize> = (0..volume.keys.len()).collect();
     order.sort_unstable_by_key(|&at| volume.keys[at]);
-    let cells: Vec<Vec<(usize, [f64; 3])>> = order
-        .par_iter()
-        .map(|&block| vertices(volume, block, least))
-        .collect();
     let mut found = Surface::default();
-    let mut index: Vec<Vec<u32>> = vec![Vec::new(); volume.keys.len()];
-    for (&block, own) in order.iter().zip(cells) {
-        if own.is_empty() {
-            continue;
+    let mut index = vec![Cells::default(); volume.keys.len()];
+    for some in order.chunks(AT_ONCE) {
+        let made: Vec<Vec<(u16, [f64; 3])>> = some
+            .par_iter()
+            .map(|&block| vertices(volume, block, least))
+            .collect();
+        for (&block, own) in some.iter().zip(made) {
+            index[block] = Cells {
+                first: found.points.len() as u32,
+                cells: own.iter().map(|one| one.0).collect(),
+            };
+            found.points.extend(own.into_iter().map(|one| one.1));
         }
-        let mut table = vec![NONE; SIDE.pow(3)];
-        for (cell, point) in own {
-            table[cell] = found.points.len() as u32;
-            found.points.push(point);
-        }
-        index[block] = table;
     }
-    let triangles: Vec<Vec<[u32; 3]>> = order
-        .par_iter()
-        .map(|&block| quads(volume, block, &index, least))
-        .collect();
-    found.triangles = triangles.into_iter().flatten().collect();
+    for some in order.chunks(AT_ONCE) {
+        let made: Vec<Vec<[u32; 3]>> = some
+            .par_iter()
+            .map(|&block| quads(volume, block, &index, least))
+            .collect();
+        found.triangles.extend(made.into_iter().flatten());
+    }
     found
 }
 
 /// The vertices of a block's cells: cell and point (m).
-fn vertices(volume: &Volume, block: usize, least: f32) -> Vec<(usize, [f64; 3])> {
+fn vertices(volume: &Volume, block: usize, least: f32) -> Vec<(u16, [f64; 3])> {
     let padded = Padded::new(volume, block);
     let key = volume.keys[block];
     let mut found = Vec::new();
@@ -96,7 +112,7 @@ fn vertices(volume: &Volume, block: usize, least: f32) -> Vec<(usize, [f64; 3])>
                         let first = f64::from(key[i]) * SIDE as f64 + at[i] as f64;
                         (first + f64::from(inside[i])) * volume.voxel_m
                     });
-                    found.push((voxel_at(x, y, z), point));
+                    found.push((voxel_at(x, y, z) as u16, point));
                 }
             }
         }
@@ -141,7 +157,7 @@ fn crossing(padded: &Padded, at: [usize; 3], least: f32) -> Option<[f32; 3]> {
 }
 
 /// Two triangles for each edge between voxels that the surface cuts.
-fn quads(volume: &Volume, block: usize, index: &[Vec<u32>], least: f32) -> Vec<[u32; 3]> {
+fn quads(volume: &Volume, block: usize, index: &[Cells], least: f32) -> Vec<[u32; 3]> {
     let padded = Padded::new(volume, block);
     let mut found = Vec::new();
     for z in 0..SIDE {
@@ -177,12 +193,12 @@ fn quads(volume: &Volume, block: usize, index: &[Vec<u32>], least: f32) -> Vec<[
 fn around(
     volume: &Volume,
     block: usize,
-    index: &[Vec<u32>],
+    index: &[Cells],
     at: [usize; 3],
     axis: usize,
 ) -> Option<[u32; 4]> {
     let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut found = [NONE; 4];
+    let mut found = [0; 4];
     for (corner, (a, b)) in [(1, 1), (0, 1), (0, 0), (1, 0)].into_iter().enumerate() {
         let mut cell = at.map(|one| one as i32);
         cell[first] -= a;
@@ -195,13 +211,11 @@ fn around(
             }
         }
         let table = &index[volume.place(key)?];
-        if table.is_empty() {
-            return None;
-        }
-        found[corner] = table[voxel_at(cell[0] as usize, cell[1] as usize, cell[2] as usize)];
-        if found[corner] == NONE {
-            return None;
-        }
+        found[corner] = table.vertex(voxel_at(
+            cell[0] as usize,
+            cell[1] as usize,
+            cell[2] as usize,
+        ))?;
     }
     Some(found)
 }

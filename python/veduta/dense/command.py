@@ -55,8 +55,6 @@ from veduta.surfaces import Simplified, simplify, vertex_normals
 
 VERSION = "5"
 SURFACE = "surface"
-MEMORY_OF_VOLUME = 0.5
-"""Share of the memory that the volume may take."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +123,7 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     parameters = DenseParameters()
     for note in given.cameras.notes:
         work.note(note)
-    views, scale = _views(work, given, options)
+    views, scale = _views(work, given, options, parameters)
     comparisons, sparse = _comparisons(work, given, views, options, parameters)
     agree = min(options.depth.agree, 1 if len(comparisons) < 3 else options.depth.agree)
     inputs: JsonValue = [given.digests, scale]
@@ -166,13 +164,16 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     tell_result(work, place, cloud, mesh)
 
 
-def _views(work: Work, given: _Given, options: DenseOptions) -> tuple[Views, float]:
+def _views(
+    work: Work, given: _Given, options: DenseOptions, parameters: DenseParameters
+) -> tuple[Views, float]:
     with work.step("photos") as step:
         step.rejected.extend(given.left)
         require_sizes(given.usable)
         chosen = options.views
         scale = working_scale(given.usable, chosen.max_side_px, chosen.max_memory)
-        views = open_views(given.usable, scale, given.cameras.masks)
+        kept = parameters.memory.picture_bytes(chosen.max_memory)
+        views = open_views(given.usable, scale, given.cameras.masks, kept)
         first = views.cameras[0]
         step.counts.update(photos=len(views), scale=round(scale, 4))
         work.measure("photos", len(views))
@@ -230,7 +231,13 @@ def _cloud(
 ) -> DenseCloud:
     with work.step("cloud") as step:
         links = {one.view: one.neighbours for one in comparisons}
-        cloud = fuse_cloud(views, links, depth_map, options.depth.agree + 1, parameters.cloud)
+        least, rule = options.depth.agree + 1, parameters.cloud
+        most = parameters.memory.most_points(options.views.max_memory)
+        cloud, every = fuse_cloud(views, links, depth_map, least, rule, most)
+        if every > 1:
+            work.note(
+                f"All points would take too much memory: one of {every} is left (see --max-memory)."
+            )
         fused = len(cloud.points_m)
         cloud = without_strays(cloud, parameters.cloud)
         step.counts["strays"] = fused - len(cloud.points_m)
@@ -255,11 +262,11 @@ def _mesh(
 ) -> tuple[Mesh, NDArray[np.float64]]:
     order = [one.view for one in comparisons]
     wanted = options.surface
-    memory = options.views.max_memory * 1e9 * MEMORY_OF_VOLUME
+    most = parameters.memory.most_blocks(options.views.max_memory)
     with work.step("surface") as step:
         natural = natural_voxel_m(views, depth_map, order, parameters.surface.voxel_px)
         voxel = wanted.voxel_m or natural
-        raw = build_surface(views, depth_map, order, voxel, memory, parameters.surface)
+        raw = build_surface(views, depth_map, order, voxel, most, parameters.surface)
         if options.views.box is not None:
             raw = cut_surface(raw, options.views.box)
         step.counts.update(triangles=len(raw.triangles), dropped=raw.dropped)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from pydantic import JsonValue
@@ -12,7 +12,14 @@ from veduta.dense.parameters import DenseParameters
 from veduta.dense.read.agreeing import agreed_depths
 from veduta.dense.read.matching import Planes, match_coarse, match_fine
 from veduta.dense.read.neighbours import Comparison
-from veduta.dense.stages import Arrays, depth_arrays, depth_map_of, kept_mapped, told
+from veduta.dense.stages import (
+    Arrays,
+    OnDisk,
+    depth_arrays,
+    depth_map_of,
+    kept_reader,
+    told,
+)
 from veduta.run.card import Engine, tell_engine
 from veduta.run.report import StepRecord
 from veduta.run.work import Work
@@ -48,16 +55,11 @@ def all_depth_maps(work: Work, matching: Matching) -> dict[int, Callable[[], Dep
     with work.step("agreement") as step:
         for done, comparison in enumerate(matching.comparisons):
             work.progress("agreement", done / len(matching.comparisons))
-            arrays = _agreed(work, matching, comparison, fine)
-            found[comparison.view] = _reader(arrays)
+            found[comparison.view] = _agreed(work, matching, comparison, fine)
             known = found[comparison.view]().known
             name = matching.views.cameras[comparison.view].name
             step.counts[f"known_{name}"] = round(float(known.mean()), 4)
     return found
-
-
-def _reader(arrays: Arrays) -> Callable[[], DepthMap]:
-    return lambda: depth_map_of(arrays)
 
 
 def _key(matching: Matching, comparison: Comparison, *parameters: object) -> JsonValue:
@@ -72,10 +74,10 @@ def _planes(
     matching: Matching,
     step: StepRecord,
     name: str,
-    coarse: dict[int, Planes] | None,
-) -> dict[int, Planes]:
+    coarse: Mapping[int, Planes] | None,
+) -> Mapping[int, Planes]:
     """The planes of every view; with the coarse ones given, the fine ones."""
-    found: dict[int, Planes] = {}
+    found: dict[int, Callable[[], Planes]] = {}
     match, views = matching.parameters.match, matching.views
 
     def make(comparison: Comparison) -> Callable[[], Arrays]:
@@ -87,15 +89,19 @@ def _planes(
     for done, comparison in enumerate(matching.comparisons):
         work.progress(f"{name} depths", done / len(matching.comparisons))
         stage = f"{name}-{comparison.view:04d}"
-        arrays = kept_mapped(work, stage, _key(matching, comparison, match), make(comparison))
-        found[comparison.view] = arrays[PLANES]
+        read = kept_reader(work, stage, _key(matching, comparison, match), make(comparison))
+        found[comparison.view] = _planes_of(read)
     step.counts["views"] = len(found)
-    return found
+    return OnDisk(found)
+
+
+def _planes_of(read: Callable[[], Arrays]) -> Callable[[], Planes]:
+    return lambda: read()[PLANES]
 
 
 def _agreed(
-    work: Work, matching: Matching, comparison: Comparison, fine: dict[int, Planes]
-) -> Arrays:
+    work: Work, matching: Matching, comparison: Comparison, fine: Mapping[int, Planes]
+) -> Callable[[], DepthMap]:
     parameters = matching.parameters
 
     def make() -> Arrays:
@@ -107,4 +113,5 @@ def _agreed(
         _key(matching, comparison, parameters.match, parameters.agree),
         matching.agree,
     ]
-    return kept_mapped(work, f"agreed-{comparison.view:04d}", key, make)
+    read = kept_reader(work, f"agreed-{comparison.view:04d}", key, make)
+    return lambda: depth_map_of(read())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +21,14 @@ from veduta.dense.read.linking import (
 from veduta.dense.read.neighbours import Comparison
 from veduta.dense.read.rectifying import RectifiedPair, rectify_pair
 from veduta.dense.read.sparse import SparsePoints
-from veduta.dense.stages import Arrays, depth_arrays, depth_map_of, kept_mapped, told
+from veduta.dense.stages import (
+    Arrays,
+    OnDisk,
+    depth_arrays,
+    depth_map_of,
+    kept_reader,
+    told,
+)
 from veduta.run.card import Engine, tell_engine
 from veduta.run.errors import NotFoundError
 from veduta.run.work import Work
@@ -61,8 +68,7 @@ def all_linked_depths(work: Work, linking: Linking) -> dict[int, Callable[[], De
     with work.step("links") as step:
         for done, comparison in enumerate(linking.comparisons):
             work.progress("links", done / len(linking.comparisons))
-            arrays = _linked(work, linking, comparison, pairs, order)
-            found[comparison.view] = _reader(arrays)
+            found[comparison.view] = _linked(work, linking, comparison, pairs, order)
             known = found[comparison.view]().known
             name = linking.views.cameras[comparison.view].name
             step.counts[f"known_{name}"] = round(float(known.mean()), 4)
@@ -70,12 +76,8 @@ def all_linked_depths(work: Work, linking: Linking) -> dict[int, Callable[[], De
     return found
 
 
-def _reader(arrays: Arrays) -> Callable[[], DepthMap]:
-    return lambda: depth_map_of(arrays)
-
-
-def _pairs(work: Work, linking: Linking, order: list[int]) -> dict[tuple[int, int], MatchedPair]:
-    found: dict[tuple[int, int], MatchedPair] = {}
+def _pairs(work: Work, linking: Linking, order: list[int]) -> Mapping[tuple[int, int], MatchedPair]:
+    found: dict[tuple[int, int], Callable[[], MatchedPair]] = {}
     views, rule = linking.views, linking.parameters.link
     with work.step("pairs") as step:
         tried: list[JsonValue] = []
@@ -101,7 +103,7 @@ def _pairs(work: Work, linking: Linking, order: list[int]) -> dict[tuple[int, in
     if len(found) < len(order) - 1 and found:
         missing = len(order) - 1 - len(found)
         work.doubt(f"{missing} pairs in a row are not matched: chains end there")
-    return found
+    return OnDisk(found)
 
 
 def _matched(
@@ -110,7 +112,7 @@ def _matched(
     two: tuple[int, int],
     pair: RectifiedPair,
     tried: tuple[int, int],
-) -> MatchedPair:
+) -> Callable[[], MatchedPair]:
     rule = linking.parameters.link
 
     def make() -> Arrays:
@@ -118,18 +120,22 @@ def _matched(
         return {"there": there, "back": back}
 
     key: JsonValue = [linking.inputs, list(two), list(tried), told(rule)]
-    arrays = kept_mapped(work, f"pair-{two[0]:04d}", key, make)
-    there, back = (np.asarray(arrays[name]) for name in ("there", "back"))
-    return MatchedPair(two, pair, there, back)
+    read = kept_reader(work, f"pair-{two[0]:04d}", key, make)
+
+    def matched() -> MatchedPair:
+        arrays = read()
+        return MatchedPair(two, pair, np.asarray(arrays["there"]), np.asarray(arrays["back"]))
+
+    return matched
 
 
 def _linked(
     work: Work,
     linking: Linking,
     comparison: Comparison,
-    pairs: dict[tuple[int, int], MatchedPair],
+    pairs: Mapping[tuple[int, int], MatchedPair],
     order: list[int],
-) -> Arrays:
+) -> Callable[[], DepthMap]:
     rule = linking.parameters.link
     chains = chains_of(comparison.view, pairs, order, rule.most_links)
 
@@ -141,4 +147,5 @@ def _linked(
     ends: list[JsonValue] = [[*one.views] for chain in chains for one in chain]
     ranges: list[JsonValue] = [comparison.near_m, comparison.far_m]
     key: JsonValue = [linking.inputs, comparison.view, ends, ranges, linking.agree, told(rule)]
-    return kept_mapped(work, f"linked-{comparison.view:04d}", key, make)
+    read = kept_reader(work, f"linked-{comparison.view:04d}", key, make)
+    return lambda: depth_map_of(read())

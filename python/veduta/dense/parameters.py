@@ -9,6 +9,7 @@ from veduta.dense.build.elevation import ElevationParameters
 from veduta.dense.build.model_distance import DistanceParameters
 from veduta.dense.build.single_view import SingleViewParameters
 from veduta.dense.build.surface import SurfaceParameters
+from veduta.dense.memory import MemoryParameters
 from veduta.dense.read.agreeing import AgreeParameters
 from veduta.dense.read.linking import LinkParameters
 from veduta.dense.read.matching import MatchParameters
@@ -20,6 +21,7 @@ from veduta.dense.read.sparse import SparseParameters
 class DenseParameters:
     """One of each step."""
 
+    memory: MemoryParameters = field(default_factory=MemoryParameters)
     sparse: SparseParameters = field(default_factory=SparseParameters)
     neighbours: NeighbourParameters = field(default_factory=NeighbourParameters)
     match: MatchParameters = field(default_factory=MatchParameters)

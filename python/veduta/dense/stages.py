@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,39 @@ from veduta.dense.document import DepthMap
 from veduta.run.work import Work
 
 Arrays = dict[str, NDArray[Any]]
+K = TypeVar("K")
+V = TypeVar("V")
 
 
-def kept_mapped(work: Work, name: str, inputs: JsonValue, make: Callable[[], Arrays]) -> Arrays:
-    """Arrays that lie on disk and are read as they are needed; made where they are not there."""
+class OnDisk(Mapping[K, V]):
+    """What lies on disk and is read anew each time, so that memory does not grow with how many
+    there are: nothing stays longer than it is used.
+    """
+
+    def __init__(self, readers: Mapping[K, Callable[[], V]]) -> None:
+        self._readers = readers
+
+    def __getitem__(self, key: K) -> V:
+        return self._readers[key]()
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._readers)
+
+    def __len__(self) -> int:
+        return len(self._readers)
+
+
+def kept_reader(
+    work: Work, name: str, inputs: JsonValue, make: Callable[[], Arrays]
+) -> Callable[[], Arrays]:
+    """What reads arrays from disk; they are made now where they are not there."""
     work.kept(name, inputs, make, _save, _nothing)
-    return work.kept(name, inputs, make, _save, _mapped)
+    # Not `make`: what that was made of would stay in memory with it.
+    return lambda: work.kept(name, inputs, _gone, _save, _mapped)
+
+
+def _gone() -> Arrays:
+    raise FileNotFoundError("a depth map that was kept is no longer there")
 
 
 def _save(arrays: Arrays, folder: Path) -> None:

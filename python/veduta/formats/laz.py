@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Mapping
 from datetime import date
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import laspy
 import numpy as np
@@ -28,6 +28,8 @@ SURVEYED_SCALE_M = 0.001
 FREE_STEPS = 1e6
 """Steps over the spread of the middle half of the points, where the unit is not known."""
 _LARGEST = 2**31 - 2
+_AT_ONCE = 500_000
+"""Points that are turned into the format at a time."""
 _MADE = date(1970, 1, 1)
 """The format asks for a day; always the same one, so that the same points give the same bytes."""
 
@@ -58,12 +60,14 @@ def write_laz(
     header = _header(offset, scale, crs)
     columns = extra or {}
     header.add_extra_dims([laspy.ExtraBytesParams(name, np.float32) for name in columns])
-    cloud = laspy.LasData(header)
-    _fill(cloud, places, colours, classes)
-    for name, values in columns.items():
-        cloud[name] = values
-    with path.open("wb") as file:
-        cloud.write(file, do_compress=True, laz_backend=laspy.LazBackend.Lazrs)
+    with path.open("wb") as file, _writer(file, header) as writer:
+        for first in range(0, len(places), _AT_ONCE):
+            some = slice(first, first + _AT_ONCE)
+            rows = laspy.ScaleAwarePointRecord.zeros(len(places[some]), header=header)
+            _fill(rows, places[some], colours[some], None if classes is None else classes[some])
+            for name, values in columns.items():
+                rows[name] = values[some]
+            writer.write_points(rows)
 
 
 def write_laz_parts(
@@ -82,19 +86,20 @@ def write_laz_parts(
     """
     header = _header(np.floor(np.asarray(middle) + np.asarray(origin_m)), SURVEYED_SCALE_M, crs)
     count = 0
-    with (
-        path.open("wb") as file,
-        laspy.open(
-            file, mode="w", header=header, do_compress=True, laz_backend=laspy.LazBackend.Lazrs,
-            closefd=False,
-        ) as writer,
-    ):  # fmt: skip
+    with path.open("wb") as file, _writer(file, header) as writer:
         for points, colours, classes in parts:
             rows = laspy.ScaleAwarePointRecord.zeros(len(points), header=header)
             _fill(rows, points + np.asarray(origin_m), colours, classes)
             writer.write_points(rows)
             count += len(points)
     return count
+
+
+def _writer(file: IO[bytes], header: laspy.LasHeader) -> Any:
+    return laspy.open(
+        file, mode="w", header=header, do_compress=True, laz_backend=laspy.LazBackend.Lazrs,
+        closefd=False,
+    )  # fmt: skip
 
 
 def _header(offset: NDArray[np.float64], scale: float, crs: str | None) -> laspy.LasHeader:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta import _core
+
 
 def vertex_pieces(triangles: NDArray[np.integer], vertices: int) -> NDArray[np.int32]:
     """(vertices,) the piece of each vertex of triangles (m, 3): what edges join is one."""
-    from scipy.sparse import coo_matrix  # here, as few calls need it
-    from scipy.sparse.csgraph import connected_components
-
-    edges = np.concatenate([triangles[:, :2], triangles[:, 1:]]).astype(np.int64)
-    links = coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(vertices, vertices))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int32)
+    found: NDArray[np.int32] = _core.pieces_of_mesh(
+        np.asarray(triangles, dtype=np.uint32), vertices
+    )
+    return found
 
 
 def compact(

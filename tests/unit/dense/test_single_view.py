@@ -43,7 +43,7 @@ def test_a_plane_needs_few_triangles_and_keeps_its_place() -> None:
     pixels, depths = CAMERA.project(found.points_m)
     assert np.allclose(pixels, found.pixels, atol=1e-6)
     inverse = 0.1 + 0.0004 * (found.pixels[:, 0] - 100) + 0.0001 * (found.pixels[:, 1] - 75)
-    assert np.allclose(1.0 / depths, inverse, rtol=1e-5)
+    assert np.allclose(1.0 / depths, inverse, rtol=1e-4)
     assert found.within < 1e-4
     # Counter-clockwise seen from the camera.
     a, b, c = (found.points_m[found.triangles[:, corner]] for corner in range(3))
@@ -76,9 +76,10 @@ def test_nothing_bridges_a_step_or_a_hole() -> None:
 
 def test_a_budget_of_triangles_is_kept() -> None:
     draw = np.random.default_rng(1)
-    noisy = _slant() * (1.0 + 0.01 * draw.standard_normal((HEIGHT, WIDTH))).astype(np.float32)
-    assert len(single_view(noisy, CAMERA, 100_000, RULE).triangles) > 5000
-    assert len(single_view(noisy, CAMERA, 4000, RULE).triangles) <= 4000
+    noise = (1.0 + 0.03 * draw.standard_normal((HEIGHT, WIDTH))).astype(np.float32)
+    noisy = (_slant() * noise)[:75, :100]
+    assert len(single_view(noisy, CAMERA, 100_000, RULE).triangles) > 2500
+    assert len(single_view(noisy, CAMERA, 1200, RULE).triangles) <= 1200
 
 
 def test_a_box_cuts() -> None:

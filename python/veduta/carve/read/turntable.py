@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -168,6 +169,7 @@ def _start(
     small = Focal(focal.px * factor, focal.share)
     round_once = 2.0 * np.pi * np.arange(count + 1) / count
     tried: list[tuple[float, int, Table]] = []
+    starts = 2 * len(rule.tilts_deg) * len(rule.rolls_deg)
     for roll in np.radians(rule.rolls_deg):
         aside = _aside(lines, float(roll)) / small.px
         for tilt in np.radians(rule.tilts_deg):
@@ -175,12 +177,17 @@ def _start(
                 angles = sign * round_once[chosen]
                 one = Table(small.px, float(tilt), float(roll), aside, angles)
                 tried.append((_cost(misses(one, lines, 32, 1).miss_px, rule), len(tried), one))
+                progress("turntable", 0.1 * len(tried) / starts)
     followed: list[tuple[float, int, Table]] = []
+
+    def told(fits: int, share: float) -> None:
+        progress("turntable", 0.1 + 0.4 * (fits + share) / rule.kept_starts)
+
     for _, number, one in sorted(tried, key=lambda one: one[:2])[: rule.kept_starts]:
         fit = _Fit(lines, one, small, rule, even=even)
-        fit.run(rule.rounds // 2)
+        fit.run(rule.rounds // 2, partial(told, len(followed)))
         followed.append((fit.cost, number, fit.table))
-        progress("turntable", 0.5 * len(followed) / rule.kept_starts)
+        told(len(followed), 0.0)
     best = min(followed, key=lambda one: one[:2])[2]
     # The photos between those that were looked at: evenly between them.
     direction = float(np.sign(best.angles[-1]))

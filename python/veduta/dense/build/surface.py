@@ -13,8 +13,6 @@ from veduta.dense.document import DepthMap, Views, camera_row
 from veduta.run.errors import NotFoundError
 from veduta.surfaces import compact, vertex_pieces
 
-BLOCK_BYTES = 4096 + 64
-
 
 @dataclass(frozen=True)
 class SurfaceParameters:
@@ -64,14 +62,16 @@ def build_surface(
     depth_map: Callable[[int], DepthMap],
     order: list[int],
     voxel_m: float,
-    memory_bytes: float,
+    most_blocks: int,
     parameters: SurfaceParameters,
 ) -> RawSurface:
-    """Signed distances from all depth maps, and surface nets over them."""
-    most = max(1000, int(memory_bytes / BLOCK_BYTES))
+    """Signed distances from all depth maps, and surface nets over them.
+
+    most_blocks: of 8 x 8 x 8 voxels; where more would be needed, voxels grow.
+    """
     while True:
         try:
-            volume = _filled(views, depth_map, order, voxel_m, most, parameters)
+            volume = _filled(views, depth_map, order, voxel_m, most_blocks, parameters)
         except _core.StereoFault as fault:
             if "blocks" not in str(fault):
                 raise
@@ -99,7 +99,7 @@ def _filled(
 
 def _without_crumbs(surface: RawSurface, parameters: SurfaceParameters) -> RawSurface:
     """Without loose parts of a few triangles, and without vertices that nothing uses."""
-    faces = surface.triangles.astype(np.int64)
+    faces = surface.triangles
     if not len(faces):
         reason = "no surface is seen by enough photos at one spot"
         raise NotFoundError("a surface", reason, "Give more photos, or --agree 1.")
@@ -110,11 +110,12 @@ def _without_crumbs(surface: RawSurface, parameters: SurfaceParameters) -> RawSu
     return RawSurface(points, triangles, surface.voxel_m, len(faces) - len(kept))
 
 
-def part_sizes(faces: NDArray[np.int64], vertices: int) -> NDArray[np.int64]:
+def part_sizes(faces: NDArray[np.integer], vertices: int) -> NDArray[np.int32]:
     """(m,) how many triangles hang together with each, by vertices that they share."""
     part = vertex_pieces(faces, vertices)
     own = part[faces[:, 0]]
-    return np.asarray(np.bincount(own, minlength=part.max() + 1)[own], dtype=np.int64)
+    counts = np.bincount(own, minlength=part.max() + 1)
+    return np.asarray(counts[own], dtype=np.int32)
 
 
 def cut_surface(surface: RawSurface, box: tuple[float, ...]) -> RawSurface:
@@ -122,7 +123,7 @@ def cut_surface(surface: RawSurface, box: tuple[float, ...]) -> RawSurface:
     low, high = np.array(box[:3]), np.array(box[3:])
     between = (surface.points_m >= low) & (surface.points_m <= high)
     inside = np.asarray(between.all(axis=1))
-    kept = surface.triangles[inside[surface.triangles].all(axis=1)].astype(np.int64)
+    kept = surface.triangles[inside[surface.triangles].all(axis=1)]
     if not len(kept):
         raise NotFoundError("a surface", "none lies in the box", "Give a larger --box.")
     points, triangles = compact(surface.points_m, kept)

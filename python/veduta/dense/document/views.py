@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from veduta.cameras import Camera
 
 MOST_KEPT_BYTES = 400_000_000
+"""Of photos that are kept in memory, where nothing else is said."""
 
 
 def camera_row(camera: Camera) -> NDArray[np.float64]:
@@ -26,11 +27,13 @@ class Views:
     """The views of a set of photos.
 
     cameras: without distortion, at the working size. read: the (h, w, 3) uint8 sRGB pixels of one,
-    and the (h, w) bool mask of where nothing is looked for (None without one).
+    and the (h, w) bool mask of where nothing is looked for (None without one). most_kept_bytes: of
+    photos that stay in memory.
     """
 
     cameras: tuple[Camera, ...]
     read: Callable[[int], tuple[NDArray[np.uint8], NDArray[np.bool_] | None]]
+    most_kept_bytes: float = MOST_KEPT_BYTES
     _kept: OrderedDict[int, tuple[NDArray[np.uint8], NDArray[np.bool_] | None]] = field(
         default_factory=OrderedDict
     )
@@ -57,7 +60,7 @@ class Views:
     def _of(self, view: int) -> tuple[NDArray[np.uint8], NDArray[np.bool_] | None]:
         if view not in self._kept:
             self._kept[view] = self.read(view)
-            while len(self._kept) > 1 and self._bytes() > MOST_KEPT_BYTES:
+            while len(self._kept) > 1 and self._bytes() > self.most_kept_bytes:
                 self._kept.popitem(last=False)
         self._kept.move_to_end(view)
         return self._kept[view]

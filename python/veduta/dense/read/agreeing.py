@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,7 +32,7 @@ class AgreeParameters:
 def agreed_depths(
     views: Views,
     comparison: Comparison,
-    planes: dict[int, Planes],
+    planes: Mapping[int, Planes],
     least: int,
     parameters: AgreeParameters,
 ) -> DepthMap:

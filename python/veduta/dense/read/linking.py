@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -134,7 +135,7 @@ def disparities_of(
 
 
 def chains_of(
-    view: int, pairs: dict[tuple[int, int], MatchedPair], order: list[int], most: int
+    view: int, pairs: Mapping[tuple[int, int], MatchedPair], order: list[int], most: int
 ) -> list[list[MatchedPair]]:
     """The pairs up the sequence from a view and down, each turned so that it leads away."""
     place = order.index(view)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import cv2
@@ -65,7 +66,7 @@ def match_coarse(
 def match_fine(
     views: Views,
     comparison: Comparison,
-    planes: dict[int, Planes],
+    planes: Mapping[int, Planes],
     seed: int,
     parameters: MatchParameters,
     engine: Engine,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.cameras import Camera, CameraSet, shown, straight_camera, undistorted
-from veduta.dense.document.views import Views
+from veduta.dense.document.views import MOST_KEPT_BYTES, Views
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 
@@ -47,10 +47,16 @@ def working_scale(cameras: list[Camera], max_side_px: int, memory_gb: float) -> 
     return float(min(1.0, max_side_px / side, np.sqrt(budget / pixels)))
 
 
-def open_views(cameras: list[Camera], scale: float, masks: Mapping[str, Path]) -> Views:
+def open_views(
+    cameras: list[Camera],
+    scale: float,
+    masks: Mapping[str, Path],
+    most_kept_bytes: float = MOST_KEPT_BYTES,
+) -> Views:
     """The views at a share of their size. Pictures are read when they are asked for.
 
-    masks: by a camera's name, a picture that is black where nothing is looked for.
+    masks: by a camera's name, a picture that is black where nothing is looked for. most_kept_bytes:
+    of pictures that stay in memory.
     """
     plain = tuple(straight_camera(one.scaled(scale)) for one in cameras)
 
@@ -60,7 +66,7 @@ def open_views(cameras: list[Camera], scale: float, masks: Mapping[str, Path]) -
         mask = masks.get(given.name)
         return pixels, _hidden(mask, given, wanted)
 
-    return Views(plain, read)
+    return Views(plain, read, most_kept_bytes)
 
 
 def _photo(camera: Camera) -> NDArray[np.uint8]:
