@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from veduta.plan.document import Text
-from veduta.plan.scale.dimension_lines import dimension_spans, line_voters
+from veduta.plan.scale.dimension_lines import dimension_spans, is_height_under, line_voters
 from veduta.plan.scale.vote import take_vote
 
 TALL = 14
@@ -96,3 +96,39 @@ def test_texts_that_are_no_lengths_do_not_vote() -> None:
     (voter,) = line_voters([_text("2.40 m", 220, 136)], ink, 0.7)
     best = max(voter.hypotheses, key=lambda one: one.trust)
     assert math.exp(best.log_mpp) == pytest.approx(0.01, rel=0.01)
+
+
+def test_the_height_under_a_width_is_no_length_of_its_line() -> None:
+    ink = _sheet()
+    _line(ink, (80, 150), (460, 150))
+    for x in (100, 240, 440):
+        _ends(ink, x, 150, "slash", 1)
+    width, height = _text("1,40", 170, 138), _text("1,385", 170, 164)
+    other = _text("2,00", 340, 138)
+    assert is_height_under(height, width)
+    assert not is_height_under(width, height)
+    assert not is_height_under(height, other)
+    voters = line_voters([width, height, other], ink, 0.7)
+    assert [one.text for one in voters] == ["1,40", "2,00"]
+    assert take_vote(voters).metres_per_px == pytest.approx(0.01, rel=0.01)
+
+
+def test_both_faces_of_a_thin_wall_are_ends() -> None:
+    ink = _sheet()
+    _line(ink, (40, 150), (470, 150))
+    for x in (60, 250, 257, 450):
+        _ends(ink, x, 150, "slash", 1)
+    spans = [span for span, _ in dimension_spans(_text("1,90", 150, 138), ink)]
+    assert min(abs(span - 190.0) for span in spans) <= 1.5
+    spans = [span for span, _ in dimension_spans(_text("1,93", 350, 138), ink)]
+    assert min(abs(span - 193.0) for span in spans) <= 1.5
+
+
+def test_a_line_that_runs_close_beside_a_mark_is_told_from_it() -> None:
+    ink = _sheet()
+    _line(ink, (40, 150), (470, 150))
+    for x in (60, 260):
+        _ends(ink, x, 150, "slash", 1)
+    _line(ink, (248, 100), (248, 200))
+    spans = [span for span, _ in dimension_spans(_text("2,00", 150, 138), ink)]
+    assert min(abs(span - 200.0) for span in spans) <= 1.0

@@ -19,6 +19,8 @@ SIDE_PX = 1800
 """Drawings are enlarged or reduced so that their longer side has this many pixels."""
 PANEL_PX = 300
 GAP_PX = 24
+AROUND = 0.08
+"""So much is shown around a storey that shares its sheet, as a part of its longer side."""
 FADED = 0.45
 """How much of the drawing's ink is left."""
 _OPACITY: dict[Layer, float] = {"rooms": 0.42, "walls": 0.55}
@@ -36,7 +38,11 @@ _SHIFTS_PX = (0, 30, -30, 60, -60, 90, -90)
 
 def overlay(drawings: Sequence[Drawing], sheets: Sequence[NDArray[np.uint8]]) -> NDArray[np.uint8]:
     """(h, w, 3) sRGB: the storeys below each other, each over its (h, w, 3) cleaned drawing."""
-    panels = [_storey(drawing, pixels) for drawing, pixels in zip(drawings, sheets, strict=True)]
+    where = [(one.storey.sheet.sha256, one.storey.sheet.page) for one in drawings]
+    panels = [
+        _storey(drawing, pixels, alone=where.count(place) == 1)
+        for drawing, pixels, place in zip(drawings, sheets, where, strict=True)
+    ]
     width = max(panel.shape[1] for panel in panels)
     height = sum(panel.shape[0] for panel in panels) + GAP_PX * (len(panels) - 1)
     canvas = np.full((height, width, 3), _PAPER, dtype=np.uint8)
@@ -54,9 +60,11 @@ def pixels_of(sheet: Sheet, points_m: NDArray[np.float64]) -> NDArray[np.float64
     return moved
 
 
-def _storey(drawing: Drawing, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _storey(drawing: Drawing, pixels: NDArray[np.uint8], *, alone: bool) -> NDArray[np.uint8]:
+    """A storey over its sheet; of one with several (not `alone`) over its own part of it."""
     sheet = drawing.storey.sheet
-    scale = SIDE_PX / max(pixels.shape[:2])
+    left, top, right, bottom = _part(drawing, pixels, alone=alone)
+    scale = SIDE_PX / max(right - left, bottom - top)
     way = cv2.INTER_AREA if scale < 1.0 else cv2.INTER_CUBIC
     sized = cv2.resize(pixels, None, fx=scale, fy=scale, interpolation=way)
     faded = 255.0 - FADED * (255.0 - sized.astype(np.float32))
@@ -66,13 +74,32 @@ def _storey(drawing: Drawing, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     for one in drawing.storey.fittings:
         ring = _at(sheet, _around(one), scale)
         cv2.polylines(picture, [ring], True, _FITTING, 2, cv2.LINE_AA, _SHIFT)
-    canvas = Image.new("RGB", (picture.shape[1] + PANEL_PX, max(picture.shape[0], 520)), _PAPER)
-    canvas.paste(Image.fromarray(picture), (0, 0))
-    pen = ImageDraw.Draw(canvas)
+    whole = Image.fromarray(picture)
+    pen = ImageDraw.Draw(whole)
     _room_names(pen, drawing, scale)
     _opening_ids(pen, drawing, scale)
-    _legend(pen, drawing.storey, picture.shape[1] + 24)
+    own = whole.crop(
+        (round(left * scale), round(top * scale), round(right * scale), round(bottom * scale))
+    )
+    canvas = Image.new("RGB", (own.width + PANEL_PX, max(own.height, 520)), _PAPER)
+    canvas.paste(own, (0, 0))
+    _legend(ImageDraw.Draw(canvas), drawing.storey, own.width + 24)
     return np.asarray(canvas, dtype=np.uint8)
+
+
+def _part(
+    drawing: Drawing, pixels: NDArray[np.uint8], *, alone: bool
+) -> tuple[float, float, float, float]:
+    """Left, top, right and bottom of what is shown of a sheet, in its pixels."""
+    height, width = pixels.shape[:2]
+    rings = [ring for shape in drawing.shapes for ring in (*shape.rings, *shape.lines)]
+    if alone or not rings:
+        return 0.0, 0.0, float(width), float(height)
+    points = pixels_of(drawing.storey.sheet, np.concatenate(rings))
+    low, high = points.min(axis=0), points.max(axis=0)
+    edge = AROUND * float(np.max(high - low))
+    (left, top), (right, bottom) = np.maximum(low - edge, 0.0), high + edge
+    return float(left), float(top), min(float(right), width), min(float(bottom), height)
 
 
 def _around(one: Fitting) -> NDArray[np.float64]:

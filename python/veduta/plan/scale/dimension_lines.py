@@ -22,8 +22,11 @@ from veduta.plan.scale.quantities import Quantity, read_quantities
 _REACH = 2.2  # heights of the text within which its line runs
 _INK = 0.4
 _GAP_PX = 3  # a thin line may be broken by so much and go on
-_MARK = 0.3  # heights of the text by which an end mark stands out of its line
-_END_TRUSTS = (1.0, 0.4, 0.2)  # the nearest crossing is the end, else the next, else that after it
+_MARKS = (0.3, 0.15)  # heights of the text by which end marks stand out of their line: by the
+# first they are told from specks, by the second from other lines that run close beside them
+_END_TRUSTS = (1.0, 0.6, 0.5, 0.2, 0.1)  # the nearest crossing is the end, else the next ...
+_UNDER = (0.45, 0.9, 2.6)  # a height under a width: beside it in widths, below it in heights
+_WIDE = 1.5  # groups of marks that are so many times as wide as most are two, as of a thin wall
 _LEAST = 1.1  # a dimension line is longer than its number, in widths of the text
 
 
@@ -46,9 +49,14 @@ class _Strip:
 def line_voters(texts: list[Text], ink: NDArray[np.float32], blur_px: float) -> list[Voter]:
     """Evidence from texts that are lengths and have a dimension line; `ink` is (h, w), 0 to 1."""
     voters = []
-    for text in texts:
-        lengths = [one for one in read_quantities(text.text) if one.kind == "length"]
-        if not lengths:
+    read = {
+        id(text): [one for one in read_quantities(text.text) if one.kind == "length"]
+        for text in texts
+    }
+    said = [text for text in texts if read[id(text)]]
+    for text in said:
+        lengths = read[id(text)]
+        if any(is_height_under(text, other) for other in said):
             continue
         readings = [
             reading
@@ -62,14 +70,33 @@ def line_voters(texts: list[Text], ink: NDArray[np.float32], blur_px: float) -> 
     return voters
 
 
+def is_height_under(text: Text, other: Text) -> bool:
+    """Whether a number stands right under another one, beyond the line between them.
+
+    So the height of a window or a door stands under its width, and is no length of that line.
+    """
+    box, above = (np.asarray(one.box_px, np.float64) for one in (text, other))
+    along, down = box[1] - box[0], box[3] - box[0]
+    width, height = float(np.hypot(*along)), float(np.hypot(*down))
+    own = above[1] - above[0]
+    if text is other or min(width, height) < 4.0:
+        return False
+    along, down = along / width, down / height
+    if float(own @ along) < 0.95 * float(np.hypot(*own)):
+        return False
+    away = box.mean(axis=0) - above.mean(axis=0)
+    beside, under = abs(float(away @ along)), float(away @ down)
+    return beside <= _UNDER[0] * width and _UNDER[1] * height <= under <= _UNDER[2] * height
+
+
 def dimension_spans(text: Text, ink: NDArray[np.float32]) -> list[tuple[float, float]]:
     """Pixels that the line of a text may be long, each with a trust; none without a line."""
     strip = _strip(text, ink)
     if strip is None:
         return []
     spans: dict[float, float] = {}
-    for row, start, end in _lines(strip):
-        marks = _marks(strip, row, start, end)
+    for (row, start, end), high in itertools.product(_lines(strip), _MARKS):
+        marks = _marks(strip, row, (start, end), high)
         middle = (strip.left + strip.right) / 2.0
         before = [mark for mark in marks[::-1] if mark < middle][: len(_END_TRUSTS)]
         after = [mark for mark in marks if mark > middle][: len(_END_TRUSTS)]
@@ -78,7 +105,7 @@ def dimension_spans(text: Text, ink: NDArray[np.float32]) -> list[tuple[float, f
             trust = _END_TRUSTS[one] * _END_TRUSTS[two]
             if length >= _LEAST * (strip.right - strip.left):
                 spans[length] = max(trust, spans.get(length, 0.0))
-    return sorted(spans.items(), key=lambda item: -item[1])[:12]
+    return sorted(spans.items(), key=lambda item: -item[1])[:24]
 
 
 def _readings(
@@ -174,22 +201,33 @@ def _is_wall(strip: _Strip, row: int, run: tuple[int, int]) -> bool:
     return bool(max(sides) > 0.5)
 
 
-def _marks(strip: _Strip, row: int, start: int, end: int) -> list[float]:
-    """Columns where ink stands out on both sides of a line, from left to right."""
-    out = max(2, round(_MARK * strip.height))
+def _marks(strip: _Strip, row: int, line: tuple[int, int], high: float) -> list[float]:
+    """Columns where ink stands out on both sides of a line, from left to right.
+
+    line: its first and last column; high: by how much ink stands out, in heights of the text.
+    """
+    start, end = line
+    out = max(2, round(high * strip.height))
     if row - out < 0 or row + out >= strip.ink.shape[0]:
         return []
-    wide = np.ones(2 * out + 1, dtype=bool)
+    reach = np.ones(2 * out + 1, dtype=bool)
     low = max(0, start - 2 * out)
     columns = slice(low, end + 2 * out)
 
-    def near(line: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        return np.convolve(line, wide, mode="same") > 0
+    def near(inked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        return np.convolve(inked, reach, mode="same") > 0
 
     crossed = near(strip.ink[row - out, columns]) & near(strip.ink[row + out, columns])
     text = slice(strip.left - low - out, strip.right - low + out)
     if strip.top - out <= row <= strip.bottom + out:
         crossed[max(0, text.start) : max(0, text.stop)] = False
     edges = np.flatnonzero(np.diff(np.concatenate([[0], crossed.astype(np.int8), [0]])))
-    groups = zip(edges[::2], edges[1::2], strict=True)
-    return [low + (first + last - 1) / 2.0 for first, last in groups]
+    firsts, lasts = low + edges[::2].astype(float), low + edges[1::2] - 1.0
+    middles = [float(one) for one in (firsts + lasts) / 2.0]
+    if len(firsts) < 2:
+        return middles
+    wide = lasts - firsts + 1.0
+    usual = float(np.median(wide))
+    both = wide > max(_WIDE * usual, usual + 3.0)
+    halves = (firsts[both] + usual / 2.0 - 0.5, lasts[both] - usual / 2.0 + 0.5)
+    return sorted([*middles, *(float(one) for half in halves for one in half)])

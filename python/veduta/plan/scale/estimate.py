@@ -34,6 +34,8 @@ GIVEN_SIGMA = 0.001
 _EXACT = ("line", "bar")  # what else says the scale to a pixel
 _DISAGREES = 0.03  # a given scale that differs so much from the sheet's own is told of
 
+_MANY_LINES, _STRAY_LINE = 4, 0.2  # so many agree; natural logarithm of how far others stray
+
 
 @dataclass(frozen=True)
 class DrawnSizes:
@@ -139,11 +141,20 @@ def scale_notes(scale: Scale) -> list[str]:
             f"Nothing on the sheet says its scale. {by} may be wrong by"
             f" {200 * scale.sigma:.0f} %. --scale sets it."
         )
-    # What is written as the whole house's area need not be this storey's.
+    # What is written as the whole house's area need not be this storey's; where many lines agree,
+    # a number that fits none of its lines by far is a number of something else.
+    lines = sum(one.agrees for one in scale.evidence if one.kind == "line")
     against = [
         one
         for one in scale.evidence
-        if not one.agrees and one.kind != "door" and not of_house(one.text)
+        if not one.agrees
+        and one.kind != "door"
+        and not of_house(one.text)
+        and not (
+            one.kind == "line"
+            and lines >= _MANY_LINES
+            and abs(math.log(one.metres_per_px / scale.metres_per_px)) > _STRAY_LINE
+        )
     ]
     said = [one for one in scale.evidence if one.kind != "door"]
     if against:
