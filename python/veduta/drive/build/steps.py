@@ -18,12 +18,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StepParameters:
-    """least_m: fronts that differ by more in depth are two. near_m: so far to both sides of where
+    """least_m: fronts that differ by more in depth are two, most_m: by less; what stands farther
+    before a front is a hedge or a fence, whose ends are ragged. near_m: so far to both sides of where
     the main depth changes the step is looked for. front_m: over so many metres beside that a
     front's depth is taken. off_m: points so near to it are of it. lowest_m: over the ground.
     """
 
     least_m: float = 0.3
+    most_m: float = 2.5
     near_m: float = 1.5
     front_m: float = 1.5
     off_m: float = 0.2
@@ -51,7 +53,7 @@ def sharpened(
         low, high = max(jump - near, 0), min(jump + near + 1, len(main))
         before = _level(main[max(low - wide, 0) : low + 1])
         after = _level(main[high - 1 : high + wide])
-        if not abs(after - before) > chosen.least_m:
+        if not chosen.least_m < abs(after - before) < chosen.most_m:
             continue
         own = order[first[low] : first[high]]
         own = own[above[own] > chosen.lowest_m]
