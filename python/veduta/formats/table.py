@@ -28,7 +28,13 @@ from veduta.place.holding import (
     TOURS,
     WALKS,
 )
-from veduta.place.registry import PlaceFolders, PlaceFormat, register_folders, register_format
+from veduta.place.registry import (
+    PlaceFolders,
+    PlaceFormat,
+    register_folders,
+    register_format,
+    register_reader,
+)
 
 if TYPE_CHECKING:
     from veduta.place.place import Place
@@ -83,6 +89,13 @@ READERS = {
 }
 
 
+READERS_ALONE = {
+    ".tif": "raster_place:read_raster_place",
+    ".tiff": "raster_place:read_raster_place",
+}
+"""Of formats that no place is written in."""
+
+
 def _late(target: str) -> Write:
     module, name = target.split(":")
 
@@ -92,9 +105,7 @@ def _late(target: str) -> Write:
     return write
 
 
-def _late_read(target: str | None) -> Callable[[Path], Place] | None:
-    if target is None:
-        return None
+def _late_read(target: str) -> Callable[[Path], Place]:
     module, name = target.split(":")
 
     def read(path: Path) -> Place:
@@ -121,8 +132,10 @@ register_folders(
         untiled=_untiled,
     )
 )
+for _suffix, _reader in READERS_ALONE.items():
+    register_reader(_suffix, _late_read(_reader))
 for _suffix, _name, _title, _target, _left_out in ROWS:
-    _read = _late_read(READERS.get(_suffix))
+    _read = _late_read(READERS[_suffix]) if _suffix in READERS else None
     register_format(
         PlaceFormat(
             _suffix, _name, _late(_target), _title, _left_out, _read, points_alone=_suffix == ".ply"

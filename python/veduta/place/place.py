@@ -30,7 +30,7 @@ from veduta.place.manifest import (
 )
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
-from veduta.place.registry import folders, format_of
+from veduta.place.registry import folders, format_of, reader_of
 from veduta.place.same import same
 from veduta.place.sunlight import Sunlight
 from veduta.run.errors import InputError
@@ -228,11 +228,7 @@ class Place:
         source = Path(path)
         if not source.is_file():
             return folders().load(source)
-        found = format_of(source)
-        if found.read is None:
-            fault = f"is a file that Veduta writes and does not read ({found.title})"
-            raise InputError(source, fault, "Name the folder with the place.json.")
-        return found.read(source)
+        return reader_of(source)(source)
 
     def save(self, folder: str | Path) -> None:
         """Write it as a folder that `veduta view` shows: `place.json`, models and clouds."""
@@ -253,8 +249,8 @@ class Place:
     def untiled(self) -> Place:
         """The same with its buildings as parts, where it has tiles that hold many of them.
 
-        They come from the city model that lies beside the tiles, which has classes and no pictures.
-        InputError where there is none.
+        They come from the city model that lies beside the tiles, with its classes, colours and
+        pictures. InputError where there is none.
         """
         return folders().untiled(self)
 

@@ -54,12 +54,18 @@ class PlaceFolders:
 
 
 _formats: dict[str, PlaceFormat] = {}
+_readers: dict[str, Callable[[Path], Place]] = {}
 _folders: list[PlaceFolders] = []
 
 
 def register_format(added: PlaceFormat) -> None:
     """Offer a format for places under its suffix."""
     _formats[added.suffix] = added
+
+
+def register_reader(suffix: str, read: Callable[[Path], Place]) -> None:
+    """Offer a format that places are read from and not written in."""
+    _readers[suffix] = read
 
 
 def register_folders(added: PlaceFolders) -> None:
@@ -87,6 +93,19 @@ def format_of(path: Path) -> PlaceFormat:
             f"Name it with one of: {', '.join(known)}",
         )
     return known[max(fitting, key=len)]
+
+
+def reader_of(path: Path) -> Callable[[Path], Place]:
+    """What reads a file of this name; InputError where nothing does."""
+    formats()
+    fitting = [suffix for suffix in _readers if path.name.lower().endswith(suffix)]
+    if fitting:
+        return _readers[max(fitting, key=len)]
+    found = format_of(path)
+    if found.read is None:
+        fault = f"is a file that Veduta writes and does not read ({found.title})"
+        raise InputError(path, fault, "Name the folder with the place.json.")
+    return found.read
 
 
 def format_named(name: str) -> PlaceFormat:
