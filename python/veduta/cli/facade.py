@@ -56,10 +56,9 @@ def _tell_results(result: CallResult) -> None:
     for name in done:
         print(f"{name}: {summary_line(result.summaries[name])}{_state(name, result)}")
         adjusted = adjusted_line(result.summaries[name])
-        if wall := wall_line(result.summaries[name]):
-            print(f"{' ' * len(name)}  {wall}")
-        if style := result.summaries[name].get("style"):
-            print(f"{' ' * len(name)}  {style}")
+        summary = result.summaries[name]
+        for said in (wall_line(summary), summary.get("style"), summary.get("houses")):
+            print(*([f"{' ' * len(name)}  {said}\n"] if said else []), sep="", end="")
         if adjusted:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
     for path in _edited(result):

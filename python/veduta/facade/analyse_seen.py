@@ -15,6 +15,7 @@ from veduta.facade.floors import Floors, split_floors
 from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
 from veduta.facade.heads import with_heads
 from veduta.facade.hidden_windows import hidden_windows
+from veduta.facade.house_folders import HOUSES_DOUBTED
 from veduta.facade.houses import HouseParameters, find_party_walls, house_spans, storey_of
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
@@ -161,7 +162,7 @@ def _houses(front: _Front) -> tuple[list[Sides], str]:
         return spans, ""
     share = 100 * unsure.x / front.evidence.width
     return spans, (
-        f"houses: the photo may show several; what is left and right of {share:.0f} % of its width"
+        f"{HOUSES_DOUBTED}; what is left and right of {share:.0f} % of its width"
         " differs. --corners, or a crop of each, parts them"
     )
 

@@ -15,6 +15,8 @@ from veduta.place.part import Part
 
 BESIDE = "beside"
 """In an item's summary: the other houses of the photo."""
+HOUSES_DOUBTED = "houses: the photo may show several"
+"""How the note begins that says so."""
 Vector = tuple[float, float, float]
 
 
@@ -81,6 +83,12 @@ def beside_told(
             }
         )
     return {BESIDE: rows}
+
+
+def houses_doubt(document: FacadeDocument) -> dict[str, JsonValue]:
+    """What the summary says where the photo may show several houses that are not parted."""
+    said = next((note for note in document.notes if note.startswith(HOUSES_DOUBTED)), None)
+    return {} if said is None else {"houses": said}
 
 
 def beside_of(summary: Mapping[str, JsonValue]) -> tuple[Beside, ...]:

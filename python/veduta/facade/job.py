@@ -12,7 +12,7 @@ from pydantic import JsonValue
 from veduta.facade.adjusted import count_adjusted
 from veduta.facade.arrangement import stands
 from veduta.facade.call import Input
-from veduta.facade.house_folders import beside_told
+from veduta.facade.house_folders import beside_told, houses_doubt
 from veduta.facade.load import PHOTO
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.pipeline import Building, rebuild, reconstruct, write_building
@@ -130,6 +130,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
         **stands(building.document),
         **{name: found[name] for name in kept},
         **({} if building.style is None else {"style": building.style.line}),
+        **houses_doubt(building.document),
         **count_adjusted(building.part.notes),
         **beside_told(building.document, [(n, b.document, b.part) for n, b in building.beside]),
         "seconds": round(sum(step.seconds for step in steps), 3),

@@ -13,7 +13,14 @@ from veduta.facade.arrangement import GAP_M, Placed, arrange
 from veduta.facade.document import FacadeDocument
 from veduta.facade.evidence import gather
 from veduta.facade.eyes import SeenElement
-from veduta.facade.house_folders import Beside, beside_kept, beside_line, beside_of
+from veduta.facade.house_folders import (
+    HOUSES_DOUBTED,
+    Beside,
+    beside_kept,
+    beside_line,
+    beside_of,
+    houses_doubt,
+)
 from veduta.facade.houses import (
     HouseParameters,
     PartyWall,
@@ -196,3 +203,11 @@ def test_houses_stay_wall_to_wall_where_the_main_one_was_edited(tmp_path: Path) 
     offsets = [row["offset_m"] for row in kept if isinstance(row, dict)]
     assert offsets == pytest.approx([-5.0 - 0.5, 19.0, 7.0]), "the last one's document is gone"
     assert beside_kept({}, main, tmp_path) == {}
+
+
+def test_a_doubt_of_houses_is_told_at_the_terminal() -> None:
+    document = sample_document()
+    assert houses_doubt(document) == {}
+    note = f"{HOUSES_DOUBTED}; what is left and right of 49 % of its width differs"
+    doubted = document.model_copy(update={"notes": ["other", note]})
+    assert houses_doubt(doubted) == {"houses": note}
