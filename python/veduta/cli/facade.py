@@ -57,8 +57,9 @@ def _tell_results(result: CallResult) -> None:
         print(f"{name}: {summary_line(result.summaries[name])}{_state(name, result)}")
         adjusted = adjusted_line(result.summaries[name])
         summary = result.summaries[name]
-        for said in (wall_line(summary), summary.get("style"), summary.get("houses")):
-            print(*([f"{' ' * len(name)}  {said}\n"] if said else []), sep="", end="")
+        also = wall_line(summary), summary.get("style"), summary.get("houses")
+        for said in filter(None, also):
+            print(f"{' ' * len(name)}  {said}")
         if adjusted:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
     for path in _edited(result):
