@@ -29,7 +29,7 @@ from veduta.fauna.motion.angles import axis_angles, coefficients, equal_steps
 from veduta.fauna.motion.gaits import Gait, roamed_gait
 from veduta.fauna.motion.states import StateSampling, curvature_range, without_turn
 from veduta.fauna.options import FaunaOptions, MotionOptions
-from veduta.fauna.path.plan import PathLimits
+from veduta.fauna.path.limits import PathLimits
 from veduta.fauna.path.terrain import terrain_of_heights
 from veduta.fauna.path.through import path_through
 from veduta.fauna.read.footage import Footage, read_footage

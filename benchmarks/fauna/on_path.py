@@ -26,7 +26,7 @@ from veduta.fauna.build.walker import limbed_walker
 from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.document.load import load_animal
 from veduta.fauna.motion.transfer import TransferLooks, Walker, walked
-from veduta.fauna.path.plan import PathLimits
+from veduta.fauna.path.limits import PathLimits
 from veduta.fauna.path.terrain import terrain_of_heights
 from veduta.fauna.path.through import path_through
 

@@ -11,7 +11,7 @@ from veduta.fauna.build.into_place import require_place
 from veduta.fauna.motion.angles import Floats
 from veduta.fauna.path.given import read_path
 from veduta.fauna.path.ground import LEVEL, around_others, ground_of, local_points
-from veduta.fauna.path.plan import PathLimits
+from veduta.fauna.path.limits import PathLimits
 from veduta.fauna.path.terrain import Terrain
 from veduta.fauna.path.through import FoundPath, path_through
 from veduta.fauna.path_picture import path_picture

@@ -13,7 +13,7 @@ from rasterio.transform import from_origin
 
 from veduta.fauna.build.going import first_view, round_path
 from veduta.fauna.path.ground import around_others, ground_of, local_points
-from veduta.fauna.path.plan import PathLimits
+from veduta.fauna.path.limits import PathLimits
 from veduta.fauna.path.terrain import terrain_of_heights
 from veduta.fauna.path.through import path_through
 from veduta.place.manifest import AnimalClip, PlaceAnimal

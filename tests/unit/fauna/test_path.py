@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from veduta.fauna.path.given import read_path
-from veduta.fauna.path.plan import PathLimits, free_cells, planned_way
+from veduta.fauna.path.limits import PathLimits
+from veduta.fauna.path.plan import free_cells, planned_way
 from veduta.fauna.path.terrain import terrain_of, terrain_of_heights
 from veduta.fauna.path.through import FoundPath, path_through
 from veduta.place.mesh import Mesh

@@ -8,15 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.fauna.motion.angles import Floats
+from veduta.fauna.path.limits import CornerLimits, PathLimits
 from veduta.fauna.path.plan import Ways
 from veduta.fauna.path.smooth import smooth_path
 from veduta.fauna.path.terrain import Terrain
 from veduta.run.errors import NotFoundError
-
-_SHARPEST = np.radians(100.0)
-"""Where a way turns by more, on a body length, no curve is as one would walk it."""
-_ROOM = 0.5
-"""A body turns in a circle of so many lengths."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,13 +24,13 @@ class Parted:
 
 
 def parted_path(
-    terrain: Terrain, ways: Ways, way: Floats, through: Floats, length_m: float
+    terrain: Terrain, ways: Ways, way: Floats, through: Floats, limits: PathLimits, length_m: float
 ) -> Parted | None:
     """The path in curves that meet in corners; None where it has none, or no such path is clear.
 
     way: (k, 2) cells that were planned. through: (j, 2) cells of the points it goes through.
     """
-    cuts = sharp_corners(ways, way, through, length_m / terrain.cell_m)
+    cuts = sharp_corners(ways, way, through, limits.corner, length_m / terrain.cell_m)
     if not cuts:
         return None
     found: list[Floats] = []
@@ -43,7 +39,7 @@ def parted_path(
         piece = way[begin : end + 1]
         inside = np.array([point for point in through if _nearest(piece, point)[1] <= 1.0])
         try:
-            line = smooth_path(terrain, ways, piece, inside, length_m, closed=False)
+            line = smooth_path(terrain, ways, piece, inside, limits.smooth, length_m, closed=False)
         except NotFoundError:
             return None
         found.append(line if not found else line[1:])
@@ -51,7 +47,9 @@ def parted_path(
     return Parted(np.concatenate(found), tuple(int(row) for row in corners))
 
 
-def sharp_corners(ways: Ways, way: Floats, through: Floats, length: float) -> list[int]:
+def sharp_corners(
+    ways: Ways, way: Floats, through: Floats, limits: CornerLimits, length: float
+) -> list[int]:
     """Rows of a way (k, 2) at which it turns back sharply and there is room to turn, in order.
 
     length: of the body, cells. Corners are as far from each other, and from the ends, as that.
@@ -65,9 +63,9 @@ def sharp_corners(ways: Ways, way: Floats, through: Floats, length: float) -> li
         after = min(int(np.searchsorted(arcs, arcs[row] + length)), len(way) - 1)
         came, goes = way[row] - way[before], way[after] - way[row]
         size = float(np.linalg.norm(came) * np.linalg.norm(goes))
-        sharp = size > 0.0 and float(came @ goes) < np.cos(_SHARPEST) * size
+        sharp = size > 0.0 and float(came @ goes) < np.cos(np.radians(limits.sharpest_deg)) * size
         apart = arcs[row] - arcs[last] >= length and arcs[-1] - arcs[row] >= length
-        if sharp and apart and _has_room(ways.free, way[row], _ROOM * length):
+        if sharp and apart and _has_room(ways.free, way[row], limits.room * length):
             rows.append(row)
             last = row
     return rows

@@ -17,26 +17,9 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from veduta.fauna.motion.angles import Floats
+from veduta.fauna.path.limits import PathLimits
 from veduta.fauna.path.terrain import Terrain
 from veduta.run.errors import InputError, NotFoundError
-
-
-@dataclass(frozen=True)
-class PathLimits:
-    """What an animal can do, and what it avoids."""
-
-    slope_deg: float = 35.0
-    """It goes up and down no steeper than so."""
-    half_width: float = 0.15
-    """It keeps so far from obstacles, in body lengths."""
-    step: float = 0.05
-    """Heights that vary by so much along an edge, in body lengths, count as much as its length."""
-    coarse: int = 4
-    """Cells of the first plan of a large terrain, along a side."""
-    large: int = 60_000
-    """A terrain of more cells is planned so."""
-    corridor: int = 6
-    """Half the width of the corridor, in large cells."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,35 +13,29 @@ from scipy.interpolate import make_interp_spline
 from scipy.ndimage import gaussian_filter1d
 
 from veduta.fauna.motion.angles import Floats, equal_steps
+from veduta.fauna.path.limits import SmoothLimits
 from veduta.fauna.path.plan import Ways
 from veduta.fauna.path.terrain import Terrain
 from veduta.run.errors import NotFoundError
 
-_ROUNDS = 7
-_SMOOTHED = 2.0
-"""The way's steps are smoothed over so many body lengths before the spline."""
-_NEAR = 0.35
-"""It passes the points that it was asked to go through so near at least, in body lengths."""
-_FOOTING = 0.25
-"""Heights along the path are smoothed over so many body lengths: noise moves feet, not bodies."""
-
 
 def smooth_path(
-    terrain: Terrain, ways: Ways, way: Floats, through: Floats, length_m: float, *, closed: bool
-) -> Floats:
+    terrain: Terrain, ways: Ways, way: Floats, through: Floats, limits: SmoothLimits,
+    length_m: float, *, closed: bool,
+) -> Floats:  # fmt: skip
     """(n, 3) the path in metres on the ground, in steps of a tenth of the body.
 
     way: (k, 2) cells. through: (j, 2) cells of the points that it was asked to go through.
     NotFoundError where no curve keeps clear of the obstacles.
     """
-    near = max(_NEAR * length_m / terrain.cell_m, 1.5)
-    sigma = _SMOOTHED * length_m / terrain.cell_m
-    for halving in range(_ROUNDS):
+    near = max(limits.near * length_m / terrain.cell_m, 1.5)
+    sigma = limits.smoothed * length_m / terrain.cell_m
+    for halving in range(limits.rounds):
         line = _curve(way, sigma / 2.0**halving, closed=closed)
         if _passes(line, through, near) and _is_free(ways, line):
-            return _on_ground(terrain, line, length_m, closed=closed)
+            return _on_ground(terrain, line, limits, length_m, closed=closed)
     if _is_free(ways, way):
-        return _on_ground(terrain, way, length_m, closed=closed)
+        return _on_ground(terrain, way, limits, length_m, closed=closed)
     raise NotFoundError(
         "a smooth path",
         "the way between the obstacles is too narrow for a curve",
@@ -94,13 +88,15 @@ def _is_free(ways: Ways, line: Floats) -> bool:
     return bool(inside.all()) and bool(ways.free[cells[:, 0], cells[:, 1]].all())
 
 
-def _on_ground(terrain: Terrain, line: Floats, length_m: float, *, closed: bool) -> Floats:
+def _on_ground(
+    terrain: Terrain, line: Floats, limits: SmoothLimits, length_m: float, *, closed: bool
+) -> Floats:
     points = terrain.point_of(line)
     way = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
     count = max(4, int(np.ceil(way / (0.1 * length_m))) + 1)
     even = equal_steps(points[None], count)[0]
     heights = terrain.height_at(even)
-    sigma = _FOOTING * 10.0
+    sigma = limits.footing * 10.0
     calm = (
         gaussian_filter1d(heights, sigma, mode="wrap")
         if closed

@@ -10,14 +10,11 @@ from numpy.typing import NDArray
 
 from veduta.fauna.motion.angles import Floats
 from veduta.fauna.path.corners import parted_path
-from veduta.fauna.path.plan import PathLimits, Ways, free_cells, planned_way
+from veduta.fauna.path.limits import PathLimits, RoundLimits
+from veduta.fauna.path.plan import Ways, free_cells, planned_way
 from veduta.fauna.path.smooth import smooth_path
 from veduta.fauna.path.terrain import Terrain
 from veduta.run.errors import NotFoundError
-
-_ROUND_LENGTHS = 12.0
-"""A round that nobody asked for is so many body lengths across at most."""
-_CORNERS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,18 +41,18 @@ def path_through(
     """
     ways = free_cells(terrain, limits, length_m)
     closed = points_m is None
-    through = _round(terrain, ways, length_m) if points_m is None else points_m
+    through = _round(terrain, ways, limits.round, length_m) if points_m is None else points_m
     way = planned_way(terrain, ways, through, limits, length_m)
     cells = terrain.cell_of(through)
     if turns and not closed:
-        parted = parted_path(terrain, ways, way, cells, length_m)
+        parted = parted_path(terrain, ways, way, cells, limits, length_m)
         if parted is not None:
             return FoundPath(parted.points_m, through, closed, ways, parted.corners)
-    found = smooth_path(terrain, ways, way, cells, length_m, closed=closed)
+    found = smooth_path(terrain, ways, way, cells, limits.smooth, length_m, closed=closed)
     return FoundPath(found, through, closed, ways)
 
 
-def _round(terrain: Terrain, ways: Ways, length_m: float) -> Floats:
+def _round(terrain: Terrain, ways: Ways, limits: RoundLimits, length_m: float) -> Floats:
     """Corners of a round about the place that is farthest from all obstacles."""
     count, labels, stats, _ = cv2.connectedComponentsWithStats(
         ways.free.astype(np.uint8), connectivity=4
@@ -76,8 +73,8 @@ def _round(terrain: Terrain, ways: Ways, length_m: float) -> Floats:
     rows, columns = room.shape
     centred = 1.0 - 0.7 * np.hypot(row / rows - 0.5, column / columns - 0.5)
     middle = np.unravel_index(int((room * centred).argmax()), room.shape)
-    radius = min(0.8 * float(room[middle]), 0.5 * _ROUND_LENGTHS * length_m / terrain.cell_m)
-    turn = np.linspace(0.0, 2.0 * np.pi, _CORNERS + 1)
+    radius = min(0.8 * float(room[middle]), 0.5 * limits.across * length_m / terrain.cell_m)
+    turn = np.linspace(0.0, 2.0 * np.pi, limits.corners + 1)
     around = np.stack([middle[0] + radius * np.sin(turn), middle[1] + radius * np.cos(turn)], 1)
     around[-1] = around[0]
     return terrain.point_of(np.round(around))

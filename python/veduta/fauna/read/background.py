@@ -83,9 +83,14 @@ def most_apart(first: Pixels, second: Pixels) -> Pixels:
 
 def _noise(frames: Pixels, background: Pixels) -> float:
     """Standard deviation of a frame against the background, by the middle of all differences."""
-    rows = frames[:: max(1, len(frames) // 8), ::2, ::2].astype(np.int16)
-    apart = np.abs(rows - background[::2, ::2]).astype(np.float64)
-    return float(1.4826 * np.median(apart)) + 0.5
+    ground = np.ascontiguousarray(background[::2, ::2])
+    counts = np.zeros(256, dtype=np.int64)
+    for frame in frames[:: max(1, len(frames) // 8), ::2, ::2]:
+        apart = cv2.absdiff(np.ascontiguousarray(frame), ground)
+        counts += np.bincount(np.asarray(apart).ravel(), minlength=256)
+    # Differences are whole grey levels: their counts hold the middle one.
+    middle = int(np.searchsorted(np.cumsum(counts), 0.5 * counts.sum()))
+    return 1.4826 * middle + 0.5
 
 
 def _largest_filled(changed: NDArray[np.bool_]) -> NDArray[np.uint8]:
