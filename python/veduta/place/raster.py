@@ -15,6 +15,9 @@ from veduta.place.material import Material, Texture
 from veduta.place.mesh import Mesh
 from veduta.place.semantics import Provenance, SemanticClass
 
+BARE = (0.66, 0.64, 0.58)
+"""Heights without a picture (sRGB)."""
+
 
 @dataclass(frozen=True, eq=False)
 class Raster:
@@ -45,13 +48,14 @@ class Raster:
         if not len(triangles):
             raise ValueError(f"raster {self.id!r} has no four cells with heights beside each other")
         used, numbers = np.unique(triangles, return_inverse=True)
-        texture = None
+        material = Material("ground", BARE)
         if self.picture is not None:
-            texture = Texture(self.picture, np.zeros(self.picture.shape[:2], dtype=np.bool_))
+            mask = np.zeros(self.picture.shape[:2], dtype=np.bool_)
+            material = Material("ground", texture=Texture(self.picture, mask))
         return Mesh.simple(
             self.id, points[used], numbers.reshape(-1, 3), SemanticClass.GROUND,
             Provenance.MEASURED, name=self.id, uv=share.reshape(-1, 2)[used],
-            material=Material("ground", texture=texture),
+            material=material,
         )  # fmt: skip
 
     def _vertices(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

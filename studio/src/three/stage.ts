@@ -102,7 +102,8 @@ export class Stage {
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
     this.household = new Household(houses, () => (this.solid instanceof PlaceSolid ? this.solid.doors : null));
-    for (const slot of parts) layIfGround(slot);
+    // A place that is nothing but its ground, such as a map, is looked at from far: without haze.
+    if (buildings.length > 0 || town !== null) for (const slot of parts) layIfGround(slot);
     this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces, this.household.group);
     for (const { group } of parts) this.#surfaces.add(group);
     if (town !== null) this.#surfaces.add(town.group);
