@@ -77,6 +77,22 @@ def hob(pen: Pen) -> None:
             pen.oval(x, y, 0.19, 0.19)
 
 
+def sink(pen: Pen) -> None:
+    """In a worktop with a hob, ribs beside it."""
+    pen.box(3.4, 0.3, 0.58, 2.2)
+    pen.box(3.5, 0.5, 0.36, 0.42)
+    for y in (1.0, 1.08, 1.16):
+        pen.line(3.5, y, 3.86, y)
+
+
+def half_round(pen: Pen) -> None:
+    """A basin whose tap touches its bowl, so that the rim is a C."""
+    cv2.ellipse(pen.ink, pen.at(1.5, 0.02), (20, 30), 0, 0, 180, 255, pen.width, cv2.LINE_AA)
+    pen.line(1.5 - 20 / SCALE, 0.02, 1.5 + 20 / SCALE, 0.02)
+    pen.oval(1.5, 0.24, 0.24, 0.24)
+    pen.line(1.5, 0.02, 1.5, 0.12)
+
+
 def bed(pen: Pen) -> None:
     pen.box(1.0, 0.02, 1.6, 2.0)
     pen.box(1.1, 0.1, 0.6, 0.35)
@@ -251,3 +267,18 @@ def test_what_is_drawn_near_each_other_stands_near_each_other() -> None:
     # No smaller one aside, which would leave the free space before the toilet.
     assert measured[1].size_m[0] == pytest.approx(0.55)
     assert measured[1].at_m[1] == pytest.approx(places["basin"][0][1], abs=0.01)
+
+
+@pytest.mark.parametrize("quarter", [0, 1])
+def test_a_sink_is_found_in_its_worktop(quarter: int) -> None:
+    pen = Pen()
+    sink(pen)
+    found, _ = found_in(pen, quarter)
+    assert [one.kind for one in found] == ["kitchen-sink"]
+
+
+def test_a_basin_whose_tap_touches_its_bowl_is_one() -> None:
+    pen = Pen(1)
+    half_round(pen)
+    found, _ = found_in(pen)
+    assert [one.kind for one in found] == ["basin"]

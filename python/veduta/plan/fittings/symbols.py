@@ -84,6 +84,7 @@ def symbols_in(
         *reader.bowls(),
         *reader.showers(),
         *reader.hobs(),
+        *reader.sinks(),
         *reader.beds(),
     ]
     return sorted(found, key=lambda one: (-one.score, -one.width_m * one.depth_m))
@@ -189,10 +190,13 @@ class _Reader:
         """An oval in a box: a basin; a circle in a square of the size of a machine is one."""
         low, high = self.sizes.basin_inside
         for place, cell in enumerate(self.cells):
-            if cell.fill < self.sizes.oval[0] or not _sized(cell, self.sizes.basin):
+            if not _sized(cell, self.sizes.basin):
                 continue
             whole = cell.length_m * cell.width_m
-            for one in self.inside[place]:
+            within = self.inside[place]
+            if cell.fill < self.sizes.oval[0]:  # its tap opens the rim around the bowl to a C
+                within = self._embraced(cell)
+            for one in within:
                 bowl = self.cells[one]
                 share = bowl.length_m * bowl.width_m / whole
                 if not self.oval(bowl) or not low <= share <= high:
@@ -204,6 +208,39 @@ class _Reader:
                 machine = square and bowl.aspect < 1.12
                 kind: FittingKind = "washer" if machine else "basin"
                 yield self._of(kind, place, 0.75)
+
+    def _embraced(self, cell: Cell) -> list[int]:
+        """What lies within the bend of a cell that is a bent rim; nothing where it is none."""
+        hull = cell.shape.convex_hull
+        if hull.area < self.sizes.oval[0] * cell.length_px * cell.width_px:
+            return []
+        return [
+            one
+            for one, other in enumerate(self.cells)
+            if other is not cell and hull.contains(other.shape)
+        ]
+
+    def sinks(self) -> Iterator[Symbol]:
+        """A box in a worktop: round corners or not, alone or beside the ribs where plates drip."""
+        for place, top in enumerate(self.cells):
+            if not _sized(top, self.sizes.counter) or top.fill < self.sizes.box:
+                continue
+            held = self.inside[place]
+            for one in held:
+                bowl = self.cells[one]
+                deep = float(np.abs((bowl.middle_px - top.middle_px) @ top.across))
+                if (
+                    not _sized(bowl, self.sizes.sink)
+                    or bowl.fill < self.sizes.oval[0]
+                    or deep * self.metres_per_px > 0.35 * top.width_m
+                    or len(self.inside[one]) > 1
+                    or any(one in self.inside[other] for other in held)
+                ):
+                    continue
+                size = (max(bowl.length_m, 0.5), min(top.width_m, 0.6))
+                yield Symbol(
+                    "kitchen-sink", bowl.middle_px, top.across, *size, 0.8, frozenset({one})
+                )
 
     def bowls(self) -> Iterator[Symbol]:
         """Ovals alone: `find` tells by the walls whether they are basins or toilets."""

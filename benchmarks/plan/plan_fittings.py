@@ -1,6 +1,6 @@
 """How many drawn fittings are found: baths, toilets, basins, hobs, sinks, beds.
 
-    python benchmarks/plan_fittings.py [--seeds A..B] [--families brochure] [--each]
+    python benchmarks plan/plan_fittings [--seeds A..B] [--families brochure] [--each]
 
 On sheets of `plan_strangers` that say what is drawn in their rooms, each with its rectangle: a
 fitting is right that is of the kind and whose middle lies within the true rectangle, or 0.15 m
