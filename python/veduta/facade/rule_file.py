@@ -210,7 +210,13 @@ class _Writer:
         x, w, h = map(metres, (place.x0, place.width, place.height))
         said = balcony.element.provenance
         sizes = f'"{name}", "{said}", {x}, {self._height(place.z0)}, {w}, {h}'
-        return f"Balcony({sizes})" if out.is_usual else f"{out.before}Jutting({sizes}, {out.words})"
+        call = f"Balcony({sizes})" if out.is_usual else f"{out.before}Jutting({sizes}, {out.words})"
+        own = self.textures.colours.own_railing(balcony.number)
+        if own is None:
+            return call
+        kind, colour = own
+        stuff = f'set(railingKind, "{kind}") set(railingColor, "{hex_colour(colour)}")'
+        return f"[ {stuff} {call} ]"
 
     def _ledges(self) -> list[str]:
         calls = []

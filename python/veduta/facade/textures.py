@@ -7,7 +7,8 @@ invented: a railing is shown once, on the railing, and not again on the wall beh
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from math import ceil, floor
 from typing import Literal
 
@@ -22,6 +23,7 @@ from veduta.facade.photo_masks import (
     PixelBox,
     element_mask,
     extent_mask,
+    pixels_of,
     seen_mask,
 )
 from veduta.facade.side_wall import side_of
@@ -29,6 +31,7 @@ from veduta.facade.sky_fringe import sky_with_fringe, without_sky
 from veduta.place.material import Colour, Texture
 
 Pixels = NDArray[np.uint8]
+RailingKind = Literal["iron", "stone"]
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,10 @@ USUAL = TextureParameters()
 
 @dataclass(frozen=True)
 class Colours:
-    """The typical (median) colour of each class in the photo, sRGB 0..1."""
+    """The typical (median) colour of each class in the photo, sRGB 0..1.
+
+    balconies: that of each railing, by the number of its element.
+    """
 
     wall: Colour
     roof: Colour
@@ -62,12 +68,23 @@ class Colours:
     chimney: Colour
     door: Colour = (0.29, 0.23, 0.17)
     mouldings: tuple[Colour, ...] = ()
+    balconies: dict[int, Colour] = field(default_factory=dict)
 
     @property
-    def railing_kind(self) -> Literal["iron", "stone"]:
+    def railing_kind(self) -> RailingKind:
+        """What most railings are of."""
+        return self._kind_of(self.balcony)
+
+    def own_railing(self, number: int) -> tuple[RailingKind, Colour] | None:
+        """Kind and colour of the railing of an element, where it is of other stuff than most."""
+        own = self.balconies.get(number)
+        if own is None or self._kind_of(own) == self.railing_kind:
+            return None
+        return self._kind_of(own), own
+
+    def _kind_of(self, balcony: Colour) -> RailingKind:
         """Railings about as light as the wall are of stone."""
-        light, wall = sum(self.balcony), sum(self.wall)
-        return "stone" if light > USUAL.stone_share * wall else "iron"
+        return "stone" if sum(balcony) > USUAL.stone_share * sum(self.wall) else "iron"
 
 
 @dataclass(frozen=True)
@@ -149,8 +166,22 @@ def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) 
             _typical(crop, _strip_mask(each, box) & seen, USUAL.stone)
             for each in document.mouldings
         ),
+        balconies={
+            number: _darker(crop, own & seen, USUAL.iron)
+            for number, own in _balcony_masks(document, box)
+            if (own & seen).any()
+        },
         chimney=_typical(crop, element_mask(document, box, "chimney") & seen, USUAL.brick),
     )
+
+
+def _balcony_masks(document: FacadeDocument, box: PixelBox) -> Iterator[tuple[int, Mask]]:
+    """The number of each balcony among the elements, and where it lies in the crop."""
+    for number, element in enumerate(document.elements):
+        if element.class_ == "balcony":
+            mask = np.zeros((box.size[1], box.size[0]), dtype=np.bool_)
+            mask[pixels_of(element, box)] = True
+            yield number, mask
 
 
 def _fill_unseen(

@@ -116,3 +116,16 @@ def test_a_front_without_wall_has_the_usual_colour() -> None:
     front = np.zeros((40, 30, 3), np.uint8)
     side = side_of(front, np.zeros((40, 30), np.bool_), slice(0, 40), (0.5, 0.5, 0.5))
     assert np.abs(side.astype(float) - 127.5).max() < 12.0
+
+
+def test_a_railing_of_other_stuff_is_of_its_own_kind() -> None:
+    document = _document()
+    photo = sample_photo(document).copy()
+    plain = build_model(document, photo, "house").rules
+    assert "set(railingKind" not in plain
+    balcony = next(e for e in document.elements if e.class_ == "balcony")
+    x, y = round(balcony.x_px), round(balcony.y_px)
+    photo[y : y + round(balcony.height_px), x : x + round(balcony.width_px)] = (200, 190, 170)
+    made = build_model(document, photo, "house").rules
+    assert made.count('set(railingKind, "stone")') == 1
+    assert made.count('attr railingKind = "iron"') == 1
