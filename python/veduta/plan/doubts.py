@@ -38,7 +38,7 @@ def doubts(document: PlanDocument, tour: Tour | None) -> list[str]:
             *storey.doubts,
         )
         said += [of + note for note in notes]
-    said += [*upper_floor_doubts(document), *unlike_storeys(document.storeys)]
+    said += [*upper_floor_doubts(document), *unlike_storeys(document.storeys), *_north(document)]
     return [*said, *(() if tour is None else tour.notes)]
 
 
@@ -51,6 +51,17 @@ def position_notes(sheet: Sheet) -> list[str]:
     return (
         [f"By its text the scan lies on its side: turned by {90 * turns} degrees."] if turns else []
     )
+
+
+def _north(document: PlanDocument) -> list[str]:
+    """That an arrow to the north is drawn, by its letter, and which way it points is not read."""
+    letters = (text.text.strip(" .") for storey in document.storeys for text in storey.texts)
+    if document.north_deg is not None or "N" not in letters:
+        return []
+    return [
+        "An N stands on the sheet, as beside an arrow to the north: which way that points is not"
+        " read, and north is taken to be up. --north sets it."
+    ]
 
 
 def unlike_storeys(storeys: Sequence[Storey]) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sample_plan import sample_plan
 
-from veduta.plan.document import Opening, PlanDocument, Scale
+from veduta.plan.document import Opening, PlanDocument, Scale, Text
 from veduta.plan.doubts import doubts
 from veduta.plan.report import measures, summary_line
 
@@ -42,3 +42,16 @@ def test_doubtful_openings_are_counted_by_their_kind() -> None:
     line = summary_line(measures(changed(None, **{doors[0]: {"score": 0.2}})))
     assert "doors (1 doubtful)" in line or "door (1 doubtful)" in line
     assert line.count("doubtful") == 1
+
+
+def test_an_arrow_to_the_north_that_is_not_read_is_said() -> None:
+    plan = changed()
+    letter = Text(text="N", box_px=[(0, 0), (9, 0), (9, 9), (0, 9)], score=0.9)
+    storey = plan.storeys[0].model_copy(update={"texts": [letter]})
+    plan = plan.model_copy(update={"storeys": [storey]})
+    told = [one for one in doubts(plan, None) if "north" in one]
+    assert len(told) == 1
+    assert "--north" in told[0]
+    assert doubts(plan.model_copy(update={"north_deg": 20.0}), None) == [
+        one for one in doubts(plan, None) if one not in told
+    ]
