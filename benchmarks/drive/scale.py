@@ -17,6 +17,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -117,11 +118,15 @@ def _photos(case: Case, street: Street, photos: Path, clock: Clock) -> None:
         if (part / "drive.toml").is_file():
             continue
         clock.left()
-        part.mkdir(parents=True, exist_ok=True)
+        new = photos / "new"
+        shutil.rmtree(new, ignore_errors=True)
+        new.mkdir(parents=True)
+        (new / "drive.toml").touch()  # to which what is known of the camera is added
         taken = take_photos(
             street, fronts, case.truck, CAMERA, SEED + number, (low, low + PHOTOS_M)
         )
-        write_photos(taken, CAMERA, part)
+        write_photos(taken, CAMERA, new)
+        new.rename(part)
 
 
 def _join_photos(photos: Path, log: Path) -> None:
@@ -130,7 +135,7 @@ def _join_photos(photos: Path, log: Path) -> None:
     import pyarrow.parquet
 
     times, names = [], []
-    for part in sorted(photos.iterdir()):
+    for part in sorted(photos.glob("[0-9]*")):
         table = pyarrow.parquet.read_table(part / "images.parquet")
         for time_s, name in zip(
             table["time_s"].to_pylist(), table["file"].to_pylist(), strict=True
