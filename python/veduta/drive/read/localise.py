@@ -19,6 +19,7 @@ from veduta.drive.read.pose_graph import Fix, Step, spread_corrections
 from veduta.drive.read.rivals import Margin, margin_of
 from veduta.drive.read.scan_chain import ScanChain
 from veduta.drive.read.scan_match import between
+from veduta.drive.read.settle import settled
 from veduta.drive.read.surface_model import SurfaceModel
 from veduta.run.errors import NotFoundError
 
@@ -140,6 +141,7 @@ def localise(
     ]
     placed = _placed(chain.poses, poses, sure)
     found = spread_corrections(placed, [*steps, *(loops or [])], fixes)
+    found = settled(found, chain.scans, model)
     margin = margin_of(found, chain.scans, model)
     return Localised(found, found[:, :2] - placed[:, :2], share, through, sure, spread, margin)
 

@@ -71,7 +71,7 @@ def margin_of(
     scans: (n, 2) points of each in the vehicle's frame (m).
     """
     chosen = parameters or RivalParameters()
-    points, passed = (_laid(poses, scans, part, chosen) for part in (1.0, chosen.passed_at))
+    points, passed = (laid_scans(poses, scans, part, chosen) for part in (1.0, chosen.passed_at))
     middle = points.mean(axis=0)
     around = np.stack([points, passed]) - middle
     reach = np.arange(-chosen.farthest_m, chosen.farthest_m + 1e-9, chosen.step_m)
@@ -94,15 +94,15 @@ def _refined(
     for turn in chosen.turns_rad:
         cosine, sine = np.cos(turn), np.sin(turn)
         turned = middle + around @ np.array([[cosine, sine], [-sine, cosine]])  # (2, n, 2)
-        rough = _fits(places, turned, model, chosen)
+        rough = fits_of(places, turned, model, chosen)
         for row in np.argsort(-rough, kind="stable")[: chosen.refined].tolist():
-            own = _fits(places[row] + finer, turned, model, chosen)
+            own = fits_of(places[row] + finer, turned, model, chosen)
             if own.max() > best:
                 best, where = float(own.max()), places[row] + finer[int(own.argmax())]
     return best, where
 
 
-def _fits(places: Floats, points: Floats, model: SurfaceModel, chosen: RivalParameters) -> Floats:
+def fits_of(places: Floats, points: Floats, model: SurfaceModel, chosen: RivalParameters) -> Floats:
     """(p,) how near to edges the points lie on average where they are moved by (p, 2), less the
     share of beams through what stands there. points: (2, n, 2) ends of beams, and places on their
     way; what is off the map counts as on no edge and as free.
@@ -127,7 +127,9 @@ def _distances(points: Floats, model: SurfaceModel) -> Floats:
     return np.where(np.isfinite(off), off, np.inf)
 
 
-def _laid(poses: Floats, scans: Sequence[Floats], part: float, chosen: RivalParameters) -> Floats:
+def laid_scans(
+    poses: Floats, scans: Sequence[Floats], part: float, chosen: RivalParameters
+) -> Floats:
     """(n, 2) points of some scans in the model's CRS (m), or places at a part of the way there."""
     every = max(len(poses) // chosen.scans, 1)
     found = []
