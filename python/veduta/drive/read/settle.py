@@ -23,8 +23,9 @@ Floats = NDArray[np.float64]
 class SettleParameters:
     """piece_m: of the path that is slid as one. sigma_m: of points about edges. reach_m: how far a
     piece is slid at most. step_m, fine_m: between places that are looked at, and about the best of
-    them. least: by so much the fit must get better (1 at best). scans, points: of a piece, laid
-    onto the model. Chosen on seeds 300, 302 and 303 of `benchmarks/drive/synthetic_path.py`.
+    them. least: by so much the fit must get better (1 at best). alike: fits that differ by less are
+    the same. scans, points: of a piece, laid onto the model. Chosen on seeds 300, 302 and 303 of
+    `benchmarks drive/synthetic_path`.
     """
 
     piece_m: float = 150.0
@@ -33,6 +34,7 @@ class SettleParameters:
     step_m: float = 0.25
     fine_m: float = 0.125
     least: float = 0.001
+    alike: float = 1e-6
     scans: int = 300
     points: int = 60
 
@@ -79,7 +81,9 @@ def _shift(
         across, up = np.meshgrid(offsets, offsets, indexing="ij")
         places = best + np.column_stack([across.ravel(), up.ravel()])
         found = fits_of(places, laid, model, rule)
-        row = int(found.argmax())
+        # Bare walls fit alike all along: of places that fit as well the nearest is taken.
+        alike = np.flatnonzero(found >= found.max() - chosen.alike)
+        row = int(alike[np.linalg.norm(places[alike], axis=1).argmin()])
         if found[row] > fit:
             fit, best = float(found[row]), places[row]
     return best if fit > own + chosen.least else np.zeros(2)
