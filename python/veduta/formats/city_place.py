@@ -29,6 +29,7 @@ WARPED_M = 0.005
 """A face whose corners leave its mean plane by more is cut into triangles between them."""
 MOST_PICTURE_PIXELS = 2**27
 """Of all pictures of a file together: 400 MB in memory."""
+UNREAD = "cannot be read"
 Rings = list[NDArray[np.float64]]
 
 
@@ -79,6 +80,7 @@ class _Pictures:
         self._known: dict[str, Texture | None] = {}
         self._pixels = 0
         self._faults: Counter[str] = Counter()
+        self._first_unread = ""
 
     def __getitem__(self, name: str) -> Texture | None:
         if name not in self._known:
@@ -95,8 +97,9 @@ class _Pictures:
             return None
         try:
             pixels = read_image(self._folder / path).pixels
-        except InputError as error:
-            self._faults[f"cannot be read, such as {error}"] += 1
+        except (InputError, OSError, ValueError):  # also names that no file can have
+            self._first_unread = self._first_unread or name[:200]
+            self._faults[UNREAD] += 1
             return None
         self._pixels += pixels.shape[0] * pixels.shape[1]
         return Texture(pixels, np.zeros(pixels.shape[:2], dtype=np.bool_))
@@ -104,7 +107,8 @@ class _Pictures:
     def notes(self) -> Iterator[str]:
         """What is not shown, and why."""
         for fault, count in self._faults.items():
-            yield f"left out: {count:,} pictures that {fault}"
+            example = f", such as {self._first_unread!r}" if fault is UNREAD else ""
+            yield f"left out: {count:,} pictures that {fault}{example}"
 
 
 def _low(city: CityFile) -> NDArray[np.float64]:

@@ -54,11 +54,11 @@ class Appearance:
     ) -> tuple[str | None, tuple[NDArray[np.float64], ...]]:
         try:
             rows = [np.array(ring) for ring in texture]
-        except (TypeError, ValueError):
-            return None, ()
-        if tuple(len(ring) - 1 for ring in rows) != sizes:
+        except (TypeError, ValueError, OverflowError):
             return None, ()
         if any(ring.ndim != 1 or ring.dtype.kind != "i" for ring in rows):
+            return None, ()
+        if tuple(len(ring) - 1 for ring in rows) != sizes:
             return None, ()
         numbers = [ring[1:] for ring in rows]
         picture = int(rows[0][0])
@@ -78,15 +78,21 @@ def _list(told: Any) -> Iterator[dict[str, Any]]:
 
 
 def _material(told: dict[str, Any]) -> tuple[Colour | None, float]:
+    clear = _share(told.get("transparency", 0.0))
     shares = told.get("diffuseColor")
-    clear = told.get("transparency", 0.0)
-    opacity = 1.0 - min(max(float(clear), 0.0), 1.0) if isinstance(clear, int | float) else 1.0
-    if not isinstance(shares, list) or len(shares) != 3:
-        return None, opacity
-    if not all(isinstance(share, int | float) for share in shares):
-        return None, opacity
-    red, green, blue = (min(max(float(share), 0.0), 1.0) for share in shares)
-    return (red, green, blue), opacity
+    found = [_share(one) for one in shares] if isinstance(shares, list) else []
+    colour = None
+    if len(found) == 3 and None not in found:
+        red, green, blue = (one or 0.0 for one in found)
+        colour = (red, green, blue)
+    return colour, 1.0 - (clear or 0.0)
+
+
+def _share(told: Any) -> float | None:
+    """Between 0 and 1; None for what is no number."""
+    if isinstance(told, bool) or not isinstance(told, int | float):
+        return None
+    return float(min(max(told, 0), 1))
 
 
 def _image(told: dict[str, Any]) -> str | None:
@@ -98,6 +104,6 @@ def _corners(told: Any) -> NDArray[np.float64]:
     """(n, 2); none where they are no pairs of numbers."""
     try:
         corners = np.array(told if isinstance(told, list) else [], dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return np.zeros((0, 2))
     return corners if corners.ndim == 2 and corners.shape[1] == 2 else np.zeros((0, 2))

@@ -30,7 +30,7 @@ from veduta.place.manifest import (
 )
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
-from veduta.place.registry import folders, format_of, reader_of
+from veduta.place.registry import folders, format_of, is_readable, reader_of
 from veduta.place.same import same
 from veduta.place.sunlight import Sunlight
 from veduta.run.errors import InputError
@@ -226,6 +226,8 @@ class Place:
         InputError where there is none.
         """
         source = Path(path)
+        if not source.exists() and is_readable(source):
+            raise InputError(source, "there is no such file", "Check its name.")
         if not source.is_file():
             return folders().load(source)
         return reader_of(source)(source)

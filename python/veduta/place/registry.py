@@ -108,6 +108,12 @@ def reader_of(path: Path) -> Callable[[Path], Place]:
     return found.read
 
 
+def is_readable(path: Path) -> bool:
+    """Whether a file of this name would be read."""
+    known = [suffix for suffix, one in formats().items() if one.read is not None]
+    return path.name.lower().endswith((*known, *_readers))
+
+
 def format_named(name: str) -> PlaceFormat:
     """The format of a name such as `obj`; InputError where there is none."""
     known = {one.name: one for one in formats().values()}

@@ -56,6 +56,19 @@ def test_chunks_that_cannot_be_there(tmp_path: Path) -> None:
         read_las(path)
 
 
+def test_chunks_of_a_table_that_the_end_tells_of(tmp_path: Path) -> None:
+    path = scan(tmp_path / "scan.laz")
+    data = path.read_bytes()
+    (points_at,) = struct.unpack_from("<I", data, 96)
+    table = data[points_at : points_at + 8]
+    (table_at,) = struct.unpack("<q", table)
+    path.write_bytes(data + table)
+    change(path, points_at, "<q", -1)
+    change(path, table_at + 4, "<I", 2_000_000_000)
+    with pytest.raises(InputError, match="2,000,000,000 records or chunks"):
+        read_las(path)
+
+
 def test_a_head_that_is_cut_is_named(tmp_path: Path) -> None:
     path = scan(tmp_path / "scan.las")
     path.write_bytes(path.read_bytes()[:60])

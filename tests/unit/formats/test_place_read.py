@@ -210,3 +210,11 @@ def test_a_city_without_a_polygon_that_can_be_drawn_is_refused(tmp_path: Path) -
     with pytest.raises(InputError, match="has no polygon that can be drawn") as told:
         veduta.load(city(tmp_path / "a.city.json", [CROSSED], BOX))
     assert told.value.remedy
+
+
+@pytest.mark.parametrize("name", ["none.tif", "none.city.json", "none.glb"])
+def test_a_file_that_is_not_there_is_no_folder(name: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="there is no such file"):
+        veduta.load(tmp_path / name)
+    with pytest.raises(InputError, match="there is no such folder"):
+        veduta.load(tmp_path / "none")

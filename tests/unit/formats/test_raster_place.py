@@ -107,6 +107,8 @@ def test_a_raster_goes_beside_buildings_into_any_format(tmp_path: Path) -> None:
         ("degrees.tif", "has degrees"),
         ("nothing.tif", "has no heights that lie beside each other"),
         ("row.tif", "has no heights that lie beside each other"),
+        ("deep.tif", "has 4 bands of uint16"),
+        ("feet.tif", "is not in metres"),
     ],
 )
 def test_what_cannot_be_used_is_named(tmp_path: Path, name: str, told: str) -> None:
@@ -118,6 +120,10 @@ def test_what_cannot_be_used_is_named(tmp_path: Path, name: str, told: str) -> N
         path.write_text("no picture")
     elif name == "degrees.tif":
         write(path, heights, 0.01, crs="EPSG:4326", transform=from_origin(8, 50, 0.01, 0.01))
+    elif name == "deep.tif":
+        write(path, np.full((4, 4, 4), 60_000, dtype=np.uint16))
+    elif name == "feet.tif":
+        write(path, heights, crs="EPSG:2263")
     elif name == "nothing.tif":
         write(path, heights + np.float32(np.nan))
     else:
@@ -132,3 +138,37 @@ def test_a_raster_without_four_known_cells_is_no_mesh() -> None:
     heights[::2, ::2] = 1.0
     with pytest.raises(ValueError, match="no four cells"):
         Raster("dsm", (5.0, 5.0), heights).mesh()
+
+
+def test_signs_for_nothing_known_are_no_heights(tmp_path: Path) -> None:
+    """Also undeclared ones, and in the cells of a raster that is read coarser."""
+    heights = np.full((8, 1024), 100.0, dtype=np.float32)
+    heights[0, 0], heights[5, 700] = -9999.0, -32768.0
+    points = world(veduta.load(write(tmp_path / "dem.tif", heights[None])))
+    np.testing.assert_allclose(points[:, 2], 100.0, atol=1e-3)
+
+
+def test_a_map_with_a_palette_has_its_colours(tmp_path: Path) -> None:
+    path = write(tmp_path / "map.tif", np.ones((1, 8, 8), dtype=np.uint8))
+    with rasterio.open(path, "r+") as file:
+        file.write_colormap(1, {0: (0, 0, 0), 1: (200, 10, 20)})
+    texture = mesh_of(veduta.load(path)).materials[0].texture
+    assert texture is not None
+    assert (texture.pixels == [200, 10, 20]).all()
+
+
+def test_what_a_picture_does_not_show_is_white(tmp_path: Path) -> None:
+    picture = np.full((3, 8, 8), 90, dtype=np.uint8)
+    picture[:, :4] = 0
+    path = write(tmp_path / "o.tif", picture, nodata=0)
+    texture = mesh_of(veduta.load(path)).materials[0].texture
+    assert texture is not None
+    assert (texture.pixels[:4] == 255).all()
+    assert (texture.pixels[4:] == 90).all()
+
+
+def test_a_system_without_a_number_is_said(tmp_path: Path) -> None:
+    own = "+proj=tmerc +lat_0=12.3 +lon_0=4.5 +k=1 +x_0=7 +y_0=8 +ellps=bessel +units=m"
+    place = veduta.load(write(tmp_path / "own.tif", np.zeros((1, 4, 4), np.float32), crs=own))
+    assert place.crs is None
+    assert any("no EPSG number" in note for note in place.notes)

@@ -68,6 +68,9 @@ def _require_counts(path: Path) -> None:
         if packed and points_at + 8 <= size:
             file.seek(points_at)
             (table_at,) = struct.unpack("<q", file.read(8))
+            if table_at == -1:  # it was written as it came: the file's last bytes say where
+                file.seek(size - 8)
+                (table_at,) = struct.unpack("<q", file.read(8))
             if 0 <= table_at <= size - 8:
                 file.seek(table_at)
                 _, chunks = struct.unpack("<II", file.read(8))
