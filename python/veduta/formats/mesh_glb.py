@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from veduta.formats.gltf import feature_columns
 from veduta.formats.gltf_bin import GltfBin, glb_container, y_up
@@ -175,6 +174,8 @@ def _wrap(mesh: Mesh, row: int) -> int:
 
 def _add_skin(root: dict[str, Any], skin: Skin, binary: GltfBin) -> None:
     """The joints as nodes after the mesh's, and the skin that binds it to them."""
+    from scipy.spatial.transform import Rotation  # here: most meshes need none, and it is slow
+
     first = len(root["nodes"])
     local = Y_UP @ skin.rest_in_parent() @ Y_UP.T
     turns = Rotation.from_matrix(local[:, :3, :3]).as_quat()
@@ -201,6 +202,8 @@ def _add_skin(root: dict[str, Any], skin: Skin, binary: GltfBin) -> None:
 
 def _add_clip(root: dict[str, Any], skin: Skin, clip: Clip, binary: GltfBin) -> None:
     """An animation with a channel for what moves."""
+    from scipy.spatial.transform import Rotation  # here: most meshes need none, and it is slow
+
     first = root["skins"][0]["joints"][0]
     times = clip.times_s.astype(np.float32)
     clock = binary.add_array(times[:, None], "SCALAR", bounds=True, of_vertices=False)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
 from veduta.formats.gltf_read import features_of, material_of, part_of
@@ -117,6 +116,8 @@ def _skin(glb: Glb, columns: _Columns) -> Skin | None:
 
 
 def _clips(glb: Glb, skin: Skin) -> list[Clip]:
+    from scipy.spatial.transform import Rotation  # here: most calls need none, and it is slow
+
     first = glb.root["skins"][0]["joints"][0]
     rest = skin.rest_in_parent()
     turns = Rotation.from_matrix(rest[:, :3, :3]).as_quat()
