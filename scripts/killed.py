@@ -39,6 +39,8 @@ USUAL = (
 
 TRIES = 4
 """How often a call is begun that is done before it is killed."""
+FAILS = "fails"
+"""A call that ends badly without being killed."""
 
 
 @dataclass
@@ -56,6 +58,10 @@ class Tried:
     def of(cls, file: Path | None, minutes: float | None) -> Tried:
         """With what was kept; minutes: for how long kills begin, where that is bounded."""
         known = json.loads(file.read_text()) if file is not None and file.exists() else {}
+        known = {
+            name: {number: word for number, word in rows.items() if word != FAILS}
+            for name, rows in known.items()
+        }
         until = float("inf") if minutes is None else time.monotonic() + 60 * minutes
         return cls(file, until, known)
 
@@ -98,6 +104,8 @@ def main() -> int:
         for call in calls:
             if tried.left(call, asked.times) and not tried.is_late:
                 killed(call, work, asked.times, tried)
+    if any(tried.count(call, FAILS) for call in calls):
+        return 1
     if any(tried.left(call, asked.times) for call in calls):
         return 2
     if asked.kept is not None:
@@ -113,7 +121,7 @@ def killed(call: Call, work: Path, times: int, tried: Tried) -> None:
     started = time.perf_counter()
     if _start(call, work).wait():
         print(f"{call.name}: fails without being disturbed")
-        tried.add(call, -1, "bad")
+        tried.known.setdefault(call.name, {})["whole"] = FAILS  # not kept: it is to be mended
         return
     seconds = time.perf_counter() - started
     shutil.move(out, kept)

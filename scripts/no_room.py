@@ -138,7 +138,7 @@ def _keep(rows: dict[str, dict[str, Value]]) -> None:
         (
             "Calls of `scripts/byte_calls.py` by `scripts/no_room.py`: into a pipe without a reader"
             " (exit code 0), told to a full device (2), help into both, no file larger than"
-            f" {SMALL_BYTES} bytes (2 or 3, one line that says so), and the same again with room.",
+            f" {SMALL_BYTES} bytes (2 or 3, without a traceback), and the same again with room.",
         ),
     )
 
