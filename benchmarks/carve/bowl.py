@@ -7,22 +7,16 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
+from painted_bowl import HOLLOW, INNER, VOLUME, bowl_views
+from record import Row, keep_or_print
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from painted_bowl import HOLLOW, INNER, VOLUME, bowl_views  # noqa: E402
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.carve.build.bounds import find_bounds  # noqa: E402
-from veduta.carve.build.consistency import carve_by_colour  # noqa: E402
-from veduta.carve.build.hull import carve_hull, root_of  # noqa: E402
-from veduta.carve.build.measures import measure_mesh  # noqa: E402
+from veduta.carve.build.bounds import find_bounds
+from veduta.carve.build.consistency import carve_by_colour
+from veduta.carve.build.hull import carve_hull, root_of
+from veduta.carve.build.measures import measure_mesh
 
 
 def measured(size: int, levels: int, grain_m: float) -> Row:

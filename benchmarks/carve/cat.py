@@ -8,25 +8,22 @@ no octree, no distances. It keeps `benchmarks/results/carve-cat.md`.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import trimesh
+from record import Row, keep_or_print
+
+from veduta import _core
+from veduta.cameras import Camera
+from veduta.carve.build.bounds import find_bounds
+from veduta.carve.build.hull import Root, carve_hull, root_of
+from veduta.carve.build.measures import measure_mesh
+from veduta.carve.views import Floats, View, camera_rows
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta import _core  # noqa: E402
-from veduta.cameras import Camera  # noqa: E402
-from veduta.carve.build.bounds import find_bounds  # noqa: E402
-from veduta.carve.build.hull import Root, carve_hull, root_of  # noqa: E402
-from veduta.carve.build.measures import measure_mesh  # noqa: E402
-from veduta.carve.views import Floats, View, camera_rows  # noqa: E402
 
 DATA = HERE.parents[1].parent / "shared" / "data" / "animals" / "walking-cat"
 SIZE = 600

@@ -9,28 +9,25 @@ from __future__ import annotations
 import argparse
 import os
 import resource
-import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
+from record import Row, keep_or_print
+
+from veduta.cameras import read_cameras
+from veduta.carve.build.appearance import Triangles, colour_vertices
+from veduta.carve.build.bounds import find_bounds
+from veduta.carve.build.consistency import carve_by_colour
+from veduta.carve.build.hull import carve_hull, root_of
+from veduta.carve.build.measures import overlaps
+from veduta.carve.options import SilhouetteOptions
+from veduta.carve.read.views import read_views
+from veduta.carve.views import Floats, View
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.cameras import read_cameras  # noqa: E402
-from veduta.carve.build.appearance import Triangles, colour_vertices  # noqa: E402
-from veduta.carve.build.bounds import find_bounds  # noqa: E402
-from veduta.carve.build.consistency import carve_by_colour  # noqa: E402
-from veduta.carve.build.hull import carve_hull, root_of  # noqa: E402
-from veduta.carve.build.measures import overlaps  # noqa: E402
-from veduta.carve.options import SilhouetteOptions  # noqa: E402
-from veduta.carve.read.views import read_views  # noqa: E402
-from veduta.carve.views import Floats, View  # noqa: E402
 
 DATA = HERE.parents[1].parent / "shared" / "data" / "silhouettes"
 THESIS = {  # table 4.1, the dinosaur: CPU, GPU, marching cubes (s), triangles

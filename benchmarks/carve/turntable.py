@@ -7,28 +7,25 @@ Middlebury's sparse ring of the dino, and keeps `benchmarks/results/carve-turnta
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from record import Row, keep_or_print
+
+from veduta.cameras import Camera, read_cameras
+from veduta.carve.build.bounds import find_bounds
+from veduta.carve.build.hull import carve_hull, root_of
+from veduta.carve.build.measures import overlaps
+from veduta.carve.options import SilhouetteOptions
+from veduta.carve.read.turntable import Focal, find_turns
+from veduta.carve.read.unposed import bare_cameras
+from veduta.carve.read.views import read_views
+from veduta.carve.views import Floats, View
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.cameras import Camera, read_cameras  # noqa: E402
-from veduta.carve.build.bounds import find_bounds  # noqa: E402
-from veduta.carve.build.hull import carve_hull, root_of  # noqa: E402
-from veduta.carve.build.measures import overlaps  # noqa: E402
-from veduta.carve.options import SilhouetteOptions  # noqa: E402
-from veduta.carve.read.turntable import Focal, find_turns  # noqa: E402
-from veduta.carve.read.unposed import bare_cameras  # noqa: E402
-from veduta.carve.read.views import read_views  # noqa: E402
-from veduta.carve.views import Floats, View  # noqa: E402
 
 DATA = HERE.parents[1].parent / "shared" / "data" / "silhouettes"
 LEVELS = 8

@@ -15,13 +15,11 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import record
 
 from veduta.drive.read.loops import close_loops
 from veduta.drive.read.scan_chain import chain_scans
 from veduta.drive.read.scan_match import between
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import record
 
 FARTHEST_M = 20.0
 LOGS = ("aces", "csail", "orebro")

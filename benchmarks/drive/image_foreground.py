@@ -17,6 +17,7 @@ import cv2
 import numpy as np
 from kitti_labels import labels_of
 from numpy.typing import NDArray
+from record import record
 
 from veduta.drive.build.backdrop import backdrop_of
 from veduta.drive.build.beside import points_beside
@@ -26,9 +27,6 @@ from veduta.drive.options import DriveOptions
 from veduta.drive.read.kitti import read_kitti
 from veduta.drive.read.segments import cut_segments, driven_line
 from veduta.drive.record import Shot
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import record
 
 BEFORE, BEHIND = (10, 252, 70, 71, 80, 81), (40, 44, 48, 50)
 NEAR_M, HIDES_PX, OFF_M = 30.0, 3, 0.5

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import record
 
 from veduta.drive.read.scan_match import (
     MatchParameters,
@@ -23,9 +24,6 @@ from veduta.drive.read.scan_match import (
     match_scans,
     moved,
 )
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import record
 
 FARTHEST_M, SAME_TIME_S, NEIGHBOURS, AROUND = 20.0, 0.001, 8, 4
 WIDE = MatchParameters(reach_m=2.5, reach_rad=0.5)

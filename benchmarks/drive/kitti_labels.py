@@ -15,15 +15,13 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import record
 
 from veduta.drive.build.layers import PointClass
 from veduta.drive.build.segment import frame_of, reconstruct
 from veduta.drive.options import DriveOptions
 from veduta.drive.read.kitti import OWN_VEHICLE_M, read_kitti
 from veduta.drive.read.segments import cut_segments, driven_line
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import record
 
 GROUPS: tuple[tuple[str, tuple[int, ...], float], ...] = (
     ("cars found", (10, 252), 0.99),

@@ -12,15 +12,13 @@ from pathlib import Path
 
 import numpy as np
 from delft_tile import LOW, SCANNER_M, driven, read_points, walls_and_trunks, write_surface
+from record import Row, record
 
 from veduta.drive.read.localise import localise
 from veduta.drive.read.scan_chain import ScanChain, chain_scans
 from veduta.drive.read.surface_model import read_surface_model
 from veduta.run.errors import NotFoundError
 from veduta.synthetic.drives.level_scan import LevelScanner, scan_level
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import Row, record
 
 OFF_M, OFF_DEG, REACH_M, REACH_DEG = 20.0, 20.0, 25.0, 25.0
 _OTHER = {"left": "right", "right": "left"}

@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from record import record
 
 from veduta.drive import DriveOptions, run_drive
 from veduta.run.progress import Progress
@@ -43,9 +44,7 @@ from veduta.synthetic.drives import (
     write_photos,
 )
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import record
-
+PROGRAMS = Path(__file__).parents[1]
 SEED, PIECE_M, PHOTOS_M = 21, 100.0, 20.0
 CAMERA = StreetCamera(spacing_m=1.0)
 ARRAYS = ("times_s", "world_from_vehicle", "angles_rad", "ranges", "level_ranges")
@@ -172,7 +171,7 @@ def run(case: Case, clock: Clock) -> None:
     """The command in a process of its own, killed when the time is over; each try is kept."""
     out, kept = case.folder / "out", case.folder / "tries.json"
     tries = json.loads(kept.read_text()) if kept.is_file() else []
-    call = [sys.executable, __file__, "--one", str(case.log), str(out)]
+    call = [sys.executable, str(PROGRAMS), "drive/scale", "--one", str(case.log), str(out)]
     begin = time.perf_counter()
     child = subprocess.Popen(call)
     while True:

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from record import record
 
 from veduta.drive.read.own import read_own
 from veduta.run.errors import NotFoundError
@@ -22,9 +23,6 @@ from veduta.synthetic.drives import (
     write_drive,
 )
 from veduta.synthetic.drives.surface import surface_of, write_surface
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import record
 
 OFF_M, OFF_DEG = 10.0, 10.0
 TRUCK = TruckOptions(level=True, spacing_m=0.25, sway_m=0.6, sway_rad=0.06)

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import record
 
 from veduta.drive.build.beside import column_spacing, points_beside
 from veduta.drive.build.fill import Source
@@ -35,9 +36,6 @@ from veduta.synthetic.drives import (
     write_drive,
 )
 from veduta.synthetic.drives.rays import to_boxes, to_ground
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import record
 
 VARIANTS: dict[str, tuple[StreetOptions, TruckOptions]] = {
     "plain": (StreetOptions(length_m=100.0), TruckOptions()),

@@ -23,6 +23,8 @@ from typing import Any
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from record import keep_or_print
+from texture_measures import psnr, ssim
 
 from veduta.drive.build.atlas import Atlas
 from veduta.drive.build.backdrop import backdrop_of
@@ -46,10 +48,6 @@ from veduta.synthetic.drives import (
     write_drive,
     write_photos,
 )
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from record import keep_or_print
-from texture_measures import psnr, ssim
 
 STREET = StreetOptions(length_m=36.0, near_trees=0.8, trees=0.5)
 CAMERA = StreetCamera(spacing_m=1.5)

@@ -14,21 +14,18 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from record import Row, keep_or_print
+
+from veduta.facade.eyes import Seen, look
+from veduta.facade.seen_front import BEFORE, FRONT
+from veduta.imaging.read import read_image
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.facade.eyes import Seen, look  # noqa: E402
-from veduta.facade.seen_front import BEFORE, FRONT  # noqa: E402
-from veduta.imaging.read import read_image  # noqa: E402
 
 DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
 SET = DATA / "laser/kitti00"

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-
-HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from style_fronts import TrueFront, true_front  # noqa: E402
+from style_fronts import TrueFront, true_front
 
 STYLES = ("haussmann", "louis-xiii", "victorian", "gothic-revival")
 """Those that have modillions."""

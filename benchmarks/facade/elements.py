@@ -16,21 +16,15 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import sys
 from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
-
-HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from element_fronts import KINDS as RENDERED  # noqa: E402
-from element_fronts import STYLES, element_front  # noqa: E402
-from facade_eyes import CMP_HELD_FROM, _photos  # noqa: E402
-from facade_measures import Matches, match  # noqa: E402
-from facade_truth import (  # noqa: E402
+from element_fronts import KINDS as RENDERED
+from element_fronts import STYLES, element_front
+from facade_eyes import CMP_HELD_FROM, _photos
+from facade_measures import Matches, match
+from facade_truth import (
     IGNORED,
     SPECK_PX,
     Boxes,
@@ -41,11 +35,12 @@ from facade_truth import (  # noqa: E402
     components,
     ecp,
 )
-from record import keep_or_print  # noqa: E402
-from style_rows import Row, rows_of  # noqa: E402
+from numpy.typing import NDArray
+from record import keep_or_print
+from style_rows import Row, rows_of
 
-from veduta.facade.document import CLASSES  # noqa: E402
-from veduta.facade.elements import (  # noqa: E402
+from veduta.facade.document import CLASSES
+from veduta.facade.elements import (
     casements,
     find_balconies,
     find_boosted,
@@ -53,8 +48,10 @@ from veduta.facade.elements import (  # noqa: E402
     find_windows,
     seen_bands,
 )
-from veduta.facade.eyes import Seen, look, seen_elements  # noqa: E402
-from veduta.imaging.read import read_image  # noqa: E402
+from veduta.facade.eyes import Seen, look, seen_elements
+from veduta.imaging.read import read_image
+
+HERE = Path(__file__).parent
 
 DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
 SETS = ("ecp", "artdeco", "cmp", "street", "renders")

@@ -18,26 +18,21 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import Row, keep_or_print
 
-HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.facade.evidence import gather  # noqa: E402
-from veduta.facade.eyes import (  # noqa: E402
+from veduta.facade.evidence import gather
+from veduta.facade.eyes import (
     SeenElement,
     look,
     seen_elements,
 )
-from veduta.facade.houses import (  # noqa: E402
+from veduta.facade.houses import (
     HouseParameters,
     PartyWall,
     candidates,
@@ -46,10 +41,12 @@ from veduta.facade.houses import (  # noqa: E402
     house_spans,
     storey_of,
 )
-from veduta.facade.party_signs import SIGNS, fronts_of  # noqa: E402
-from veduta.facade.seen_boxes import in_crop  # noqa: E402
-from veduta.imaging.padding import inside_photo  # noqa: E402
-from veduta.imaging.read import read_image  # noqa: E402
+from veduta.facade.party_signs import SIGNS, fronts_of
+from veduta.facade.seen_boxes import in_crop
+from veduta.imaging.padding import inside_photo
+from veduta.imaging.read import read_image
+
+HERE = Path(__file__).parent
 
 DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
 HELD_FROM = 241

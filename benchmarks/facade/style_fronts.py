@@ -2,37 +2,33 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from veduta import _core  # noqa: E402
-from veduta.facade.analyse import analyse  # noqa: E402
-from veduta.facade.document import FacadeDocument, Source  # noqa: E402
-from veduta.facade.eyes import look  # noqa: E402
-from veduta.facade.options import FacadeOptions, RectifyOptions  # noqa: E402
-from veduta.facade.rectify import rectify  # noqa: E402
-from veduta.facade.style.elevation import instance_boxes  # noqa: E402
-from veduta.facade.style.grammar import DEPTH_M, StyleGrammar, style_grammar  # noqa: E402
-from veduta.facade.style.observed import Observed, observe  # noqa: E402
-from veduta.facade.style.prior import Real  # noqa: E402
-from veduta.facade.style.state import SCALE, State  # noqa: E402
-from veduta.grammar.building import build_part  # noqa: E402
-from veduta.grammar.edits import Edit  # noqa: E402
-from veduta.grammar.portrait import turned  # noqa: E402
-from veduta.imaging.read import Photo  # noqa: E402
-from veduta.place.part import Part  # noqa: E402
-from veduta.run.errors import NotFoundError  # noqa: E402
-from veduta.synthetic.camera import look_at  # noqa: E402
-from veduta.synthetic.light import daylight  # noqa: E402
-from veduta.synthetic.render import render  # noqa: E402
-from veduta.synthetic.scene import RayScene  # noqa: E402
+from veduta import _core
+from veduta.facade.analyse import analyse
+from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.eyes import look
+from veduta.facade.options import FacadeOptions, RectifyOptions
+from veduta.facade.rectify import rectify
+from veduta.facade.style.elevation import instance_boxes
+from veduta.facade.style.grammar import DEPTH_M, StyleGrammar, style_grammar
+from veduta.facade.style.observed import Observed, observe
+from veduta.facade.style.prior import Real
+from veduta.facade.style.state import SCALE, State
+from veduta.grammar.building import build_part
+from veduta.grammar.edits import Edit
+from veduta.grammar.portrait import turned
+from veduta.imaging.read import Photo
+from veduta.place.part import Part
+from veduta.run.errors import NotFoundError
+from veduta.synthetic.camera import look_at
+from veduta.synthetic.light import daylight
+from veduta.synthetic.render import render
+from veduta.synthetic.scene import RayScene
 
 LONG_PX = 640
 FAR_M = 120.0

@@ -18,20 +18,15 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import Row, keep_or_print
 
-HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.facade.style.infer import USUAL, InferParameters, log_odds_of_none  # noqa: E402
+from veduta.facade.style.infer import USUAL, InferParameters, log_odds_of_none
 
 NONE, ANY = "none", "any"
 TEMPERATURES = np.geomspace(1.0, 60.0, 40).round(2).tolist()

@@ -12,29 +12,26 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
+from facade_truth import Labelled, cmp, ecp
+from record import keep_or_print
+from style_rows import Row, logs_of, rows_of, told
+
+from veduta.facade.analyse import analyse
+from veduta.facade.document import Source
+from veduta.facade.eyes import look
+from veduta.facade.options import FacadeOptions, RectifyOptions
+from veduta.facade.rectify import rectify
+from veduta.facade.style.infer import AUTO, infer_style
+from veduta.facade.style.observed import observe
+from veduta.facade.style.search import SearchParameters
+from veduta.imaging.read import read_image
+from veduta.run.errors import NotFoundError
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from facade_truth import Labelled, cmp, ecp  # noqa: E402
-from record import keep_or_print  # noqa: E402
-from style_rows import Row, logs_of, rows_of, told  # noqa: E402
-
-from veduta.facade.analyse import analyse  # noqa: E402
-from veduta.facade.document import Source  # noqa: E402
-from veduta.facade.eyes import look  # noqa: E402
-from veduta.facade.options import FacadeOptions, RectifyOptions  # noqa: E402
-from veduta.facade.rectify import rectify  # noqa: E402
-from veduta.facade.style.infer import AUTO, infer_style  # noqa: E402
-from veduta.facade.style.observed import observe  # noqa: E402
-from veduta.facade.style.search import SearchParameters  # noqa: E402
-from veduta.imaging.read import read_image  # noqa: E402
-from veduta.run.errors import NotFoundError  # noqa: E402
 
 DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
 OPTIONS = FacadeOptions(rectify=RectifyOptions(rectified=True))

@@ -12,28 +12,23 @@ from 100 on were used for nothing else.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from real_fronts import as_real
+from record import keep_or_print
+from style_fronts import TrueFront, read_front, true_front
+from style_rows import Row, logs_of, rows_of, told
 
-HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from real_fronts import as_real  # noqa: E402
-from record import keep_or_print  # noqa: E402
-from style_fronts import TrueFront, read_front, true_front  # noqa: E402
-from style_rows import Row, logs_of, rows_of, told  # noqa: E402
-
-from veduta.facade.style.grammar import ANY_FRONT  # noqa: E402
-from veduta.facade.style.infer import AUTO, Candidate, StyleFound, infer_style  # noqa: E402
-from veduta.facade.style.other_searches import anneal, greedy  # noqa: E402
-from veduta.facade.style.search import SearchParameters, search  # noqa: E402
-from veduta.facade.style.starts import climbed  # noqa: E402
-from veduta.facade.style.state import SCALE  # noqa: E402
+from veduta.facade.style.grammar import ANY_FRONT
+from veduta.facade.style.infer import AUTO, Candidate, StyleFound, infer_style
+from veduta.facade.style.other_searches import anneal, greedy
+from veduta.facade.style.search import SearchParameters, search
+from veduta.facade.style.starts import climbed
+from veduta.facade.style.state import SCALE
 
 STYLES = ("haussmann", "louis-xiii", "louis-xiv", "empire", "restauration")
 FIRST = 100

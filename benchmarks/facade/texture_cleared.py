@@ -12,7 +12,6 @@ learned eyes see one in the filled picture at an intersection over union of 0.5.
 from __future__ import annotations
 
 import argparse
-import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -20,13 +19,9 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
 from facade_measures import overlaps
 from hidden_fronts import HiddenFront, hidden_fronts
+from numpy.typing import NDArray
 from record import Row, keep_or_print
 from texture_measures import psnr, ssim
 

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
 from record import Value
+from scipy.spatial.transform import Rotation
 
 from veduta.fauna.build.limbed import BuiltLimbed, build_limbed
 from veduta.fauna.document.plan import load_plan

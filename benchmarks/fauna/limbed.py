@@ -8,20 +8,15 @@ that was broken off goes on. Real data is read from `$VEDUTA_DATA`, else from `.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-sys.path.insert(0, str(Path(__file__).parent))
-
 from cat_views import cat_rows
 from kept_clips import KeptClips
+from numpy.typing import NDArray
 from record import Value, keep_or_print
 
 from veduta.fauna.document.limbed import LimbedAnimal

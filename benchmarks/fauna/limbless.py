@@ -10,18 +10,14 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 import time
 from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
 from record import Value, record
+from scipy.spatial import cKDTree
 
 from veduta.fauna.build.build import build_animal
 from veduta.fauna.document.schema import Source

@@ -8,7 +8,6 @@ has made (of the walking cat, and of a drawn lizard), prints a table and keeps i
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -16,9 +15,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
 from record import Value, keep_or_print
 
 from veduta.fauna.build.limbed import build_limbed

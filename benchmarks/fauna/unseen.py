@@ -9,19 +9,14 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-sys.path.insert(0, str(Path(__file__).parent))
-
 from kept_clips import KeptClips
+from numpy.typing import NDArray
 from record import Value, keep_or_print
 
 from veduta.fauna.document.plan import load_plan

@@ -10,22 +10,19 @@ from __future__ import annotations
 import argparse
 import math
 import runpy
-import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-TESTS = HERE.parent.parent / "tests" / "unit" / "grammar"
+from record import Row, keep_or_print
 
-from record import Row, keep_or_print  # noqa: E402
+from veduta.grammar.deriving import deriver
+from veduta.grammar.one_lot import plain_lot
+from veduta.grammar.options import GrammarOptions
+from veduta.grammar.otherwise import otherwise
+from veduta.grammar.rules import check_rules, read_rules
 
-from veduta.grammar.deriving import deriver  # noqa: E402
-from veduta.grammar.one_lot import plain_lot  # noqa: E402
-from veduta.grammar.options import GrammarOptions  # noqa: E402
-from veduta.grammar.otherwise import otherwise  # noqa: E402
-from veduta.grammar.rules import check_rules, read_rules  # noqa: E402
+TESTS = Path(__file__).parents[2] / "tests" / "unit" / "grammar"
 
 FIRST_TRY = {"the forty": (33, 40), "fifteen more": (14, 15)}
 """Right, and how many there were."""

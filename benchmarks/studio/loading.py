@@ -19,11 +19,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+
+from record import Row, record
+
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, record  # noqa: E402
 
 VEDUTA = Path(sys.executable).parent / "veduta"
 

@@ -12,7 +12,6 @@ eighth of its width (each window has its own glazing and curtains), correlates w
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -20,9 +19,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
 from record import Row, keep_or_print
 from texture_measures import psnr, ssim
 

@@ -9,26 +9,20 @@ from __future__ import annotations
 
 import argparse
 import itertools
-import sys
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import Row, keep_or_print
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.synthetic.walks.record import GorgeWalk, shoot_walk  # noqa: E402
-from veduta.synthetic.walks.shoot import WalkCamera, WalkShot  # noqa: E402
-from veduta.walk.build.flow import FlowSettings, find_flow  # noqa: E402
-from veduta.walk.build.local_model import build_local_model  # noqa: E402
-from veduta.walk.build.matches import match_features  # noqa: E402
-from veduta.walk.build.pose import relative_pose  # noqa: E402
-from veduta.walk.rig import Rig, StereoPair  # noqa: E402
+from veduta.synthetic.walks.record import GorgeWalk, shoot_walk
+from veduta.synthetic.walks.shoot import WalkCamera, WalkShot
+from veduta.walk.build.flow import FlowSettings, find_flow
+from veduta.walk.build.local_model import build_local_model
+from veduta.walk.build.matches import match_features
+from veduta.walk.build.pose import relative_pose
+from veduta.walk.rig import Rig, StereoPair
 
 TEN = tuple(1.0 / (1.0 - 0.1 * n) for n in range(10))
 """The paper's scales: 1, 1/0.9, ... 1/0.1."""

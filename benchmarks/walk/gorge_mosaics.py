@@ -7,25 +7,19 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from record import Row, keep_or_print
 from scipy.spatial.transform import Rotation
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, keep_or_print  # noqa: E402
-
-from veduta.synthetic.walks.record import GorgeWalk, shoot_walk  # noqa: E402
-from veduta.synthetic.walks.shoot import WalkCamera  # noqa: E402
-from veduta.walk.build.local_model import LocalModel, build_local_model  # noqa: E402
-from veduta.walk.build.mosaic import Mosaic, make_mosaic  # noqa: E402
-from veduta.walk.build.way import find_way  # noqa: E402
-from veduta.walk.rig import Rig, StereoPair  # noqa: E402
+from veduta.synthetic.walks.record import GorgeWalk, shoot_walk
+from veduta.synthetic.walks.shoot import WalkCamera
+from veduta.walk.build.local_model import LocalModel, build_local_model
+from veduta.walk.build.mosaic import Mosaic, make_mosaic
+from veduta.walk.build.way import find_way
+from veduta.walk.rig import Rig, StereoPair
 
 WANTED_PX = 45e6
 """45 views of one megapixel."""

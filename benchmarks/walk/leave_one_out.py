@@ -7,18 +7,13 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, record  # noqa: E402
-from walk_peers import (  # noqa: E402
+from record import Row, record
+from walk_peers import (
     both_depths,
     cross_fade,
     dis_flow,
@@ -26,14 +21,14 @@ from walk_peers import (  # noqa: E402
     nearest_model,
     second_pose,
 )
-from walk_sets import PathSet, between, load_set  # noqa: E402
+from walk_sets import PathSet, between, load_set
 
-from veduta.walk.build.judge import psnr  # noqa: E402
-from veduta.walk.build.render import Transition, draw_between  # noqa: E402
-from veduta.walk.build.screen import Screen  # noqa: E402
-from veduta.walk.build.way import find_way  # noqa: E402
-from veduta.walk.read.pairs import read_stereo  # noqa: E402
-from veduta.walk.rig import Image  # noqa: E402
+from veduta.walk.build.judge import psnr
+from veduta.walk.build.render import Transition, draw_between
+from veduta.walk.build.screen import Screen
+from veduta.walk.build.way import find_way
+from veduta.walk.read.pairs import read_stereo
+from veduta.walk.rig import Image
 
 GAPS = {"kitti03": (2, 4, 8), "kitti-seq1": (2, 4, 6)}
 MOST = 4

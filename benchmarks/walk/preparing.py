@@ -17,7 +17,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
-sys.path[:0] = [str(HERE.parent), str(HERE.parent / "studio")]
+sys.path.insert(0, str(HERE.parent / "studio"))
 
 from loading import served  # noqa: E402
 from record import Row, keep_or_print  # noqa: E402

@@ -6,23 +6,17 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from record import Row, keep_or_print
+from walk_sets import PathSet, load_set
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, keep_or_print  # noqa: E402
-from walk_sets import PathSet, load_set  # noqa: E402
-
-from veduta.run.errors import NotFoundError  # noqa: E402
-from veduta.walk.build.matches import match_features  # noqa: E402
-from veduta.walk.build.pose import relative_pose  # noqa: E402
-from veduta.walk.read.pairs import read_stereo  # noqa: E402
+from veduta.run.errors import NotFoundError
+from veduta.walk.build.matches import match_features
+from veduta.walk.build.pose import relative_pose
+from veduta.walk.read.pairs import read_stereo
 
 Matrix = NDArray[np.float64]
 GAPS = {"kitti-seq1": (2, 4, 6), "kitti03": (2, 4, 8)}

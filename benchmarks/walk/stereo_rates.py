@@ -6,26 +6,20 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
-from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from record import Row, keep_or_print
+from walk_sets import DATA
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent))
-
-from record import Row, keep_or_print  # noqa: E402
-from walk_sets import DATA  # noqa: E402
-
-from veduta.imaging.read import read_image  # noqa: E402
-from veduta.walk.build.stereo import StereoSettings, match_stereo  # noqa: E402
-from veduta.walk.read.calib_kitti import read_kitti  # noqa: E402
-from veduta.walk.read.calib_middlebury import read_middlebury  # noqa: E402
-from veduta.walk.read.pairs import make_rectifier  # noqa: E402
-from veduta.walk.rig import Image, Rig  # noqa: E402
+from veduta.imaging.read import read_image
+from veduta.walk.build.stereo import StereoSettings, match_stereo
+from veduta.walk.read.calib_kitti import read_kitti
+from veduta.walk.read.calib_middlebury import read_middlebury
+from veduta.walk.read.pairs import make_rectifier
+from veduta.walk.rig import Image, Rig
 
 Truth = NDArray[np.float32]
 KITTI2015 = Rig(1242, 375, (721.5377, 721.5377), (610.06, 173.35), 0.5327)
