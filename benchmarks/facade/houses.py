@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from logistic import likeliest
 from numpy.typing import NDArray
 from record import Row, keep_or_print
 
@@ -228,13 +229,7 @@ def fit(pictures: Sequence[Picture]) -> tuple[float, Float]:
 
 def _newton(signs: Float, right: NDArray[np.int64], weight: Float) -> tuple[float, Float]:
     known = np.column_stack([np.ones(len(signs)), signs])
-    at = np.zeros(known.shape[1])
-    ridge = RIDGE * np.diag([0.0, *[1.0] * signs.shape[1]])
-    for _ in range(60):
-        chance = 1.0 / (1.0 + np.exp(-known @ at))
-        slope = known.T @ (weight * (right - chance)) - ridge @ at
-        bend = (known.T * (weight * chance * (1.0 - chance))) @ known + ridge
-        at += np.linalg.solve(bend + 1e-9 * np.eye(len(at)), slope)
+    at = likeliest(known, right, weight, RIDGE, 60)
     return float(at[0]), at[1:]
 
 

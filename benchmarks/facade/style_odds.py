@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from logistic import likeliest
 from numpy.typing import NDArray
 from record import Row, keep_or_print
 
@@ -143,13 +144,7 @@ def fit(own: Sequence[Case], without: Sequence[Case], none: Sequence[Case]) -> I
     signs = np.array([case.signs for cases, _, _ in groups for case in cases])
     right = np.concatenate([np.full(len(cases), is_none) for cases, is_none, _ in groups])
     weight = np.concatenate([np.full(len(c), 10.0 * w / max(1, len(c))) for c, _, w in groups])
-    at = np.zeros(3)
-    ridge = RIDGE * np.diag([0.0, 1.0, 1.0])
-    for _ in range(100):
-        chance = 1.0 / (1.0 + np.exp(-signs @ at))
-        slope = signs.T @ (weight * (right - chance)) - ridge @ at
-        bend = (signs.T * (weight * chance * (1.0 - chance))) @ signs + ridge
-        at += np.linalg.solve(bend + 1e-9 * np.eye(3), slope)
+    at = likeliest(signs, right, weight, RIDGE, 100)
     offset, worse, apart = at.round(1).tolist()
     return replace(
         USUAL,
