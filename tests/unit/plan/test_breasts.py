@@ -10,6 +10,7 @@ from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.breasts import without_breasts
 from veduta.plan.walls.pieces import Piece
 from veduta.plan.walls.solid import Thickness
+from veduta.plan.walls.tracks import find_tracks
 
 THICK = Thickness(8.0, 20.0)
 
@@ -25,7 +26,7 @@ def test_a_breast_is_cut_off_at_the_face_of_its_wall() -> None:
     wall = party_wall()
     mask = wall.copy()
     mask[120:210, 70:96] = True
-    found, count = without_breasts(mask, THICK)
+    found, count = without_breasts(mask, find_tracks(mask), THICK)
     assert count == 1
     assert np.array_equal(found, wall)
 
@@ -34,7 +35,7 @@ def test_breasts_on_both_sides_are_cut_off() -> None:
     wall = party_wall()
     mask = wall.copy()
     mask[120:210, 28:96] = True
-    found, count = without_breasts(mask, THICK)
+    found, count = without_breasts(mask, find_tracks(mask), THICK)
     assert count == 1
     assert np.array_equal(found, wall)
 
@@ -42,7 +43,7 @@ def test_breasts_on_both_sides_are_cut_off() -> None:
 def test_a_wall_that_stays_thicker_stays() -> None:
     mask = party_wall()
     mask[200:380, 70:96] = True
-    found, count = without_breasts(mask, THICK)
+    found, count = without_breasts(mask, find_tracks(mask), THICK)
     assert count == 0
     assert found is mask
 
@@ -50,7 +51,7 @@ def test_a_wall_that_stays_thicker_stays() -> None:
 def test_a_wall_that_joins_stays() -> None:
     mask = party_wall()
     mask[190:202, 70:280] = True
-    found, count = without_breasts(mask, THICK)
+    found, count = without_breasts(mask, find_tracks(mask), THICK)
     assert count == 0
     assert found[195, 200]
 

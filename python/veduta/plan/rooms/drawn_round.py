@@ -132,7 +132,8 @@ def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Point
         stubs = between_stubs(level, found.solid, limits, HOOK * found.thin_px)
         if stubs is not None:
             middle, thick = stubs
-        line = _laid(middle, axes, thick)
+            level = levelled(middle, axes, thick)
+        line = _laid(level, axes, thick)
         if min(LineString(one).length for one in (middle, line)) < LEAST * thin_px:
             continue
         walls += [Axis(piece, (), "inferred") for piece in _pieces(line, thick, drawing)]
@@ -160,7 +161,7 @@ def thin_outline(
         middle = _middle(face, whole, found.thin_px)
         if middle is None:
             continue
-        line = _laid(middle, axes, found.thin_px)
+        line = _laid(levelled(middle, axes, found.thin_px), axes, found.thin_px)
         if LineString(line).length >= LEAST * found.thin_px:
             pieces = _pieces(line, found.thin_px, drawing)
             walls += [Axis(piece, (), "inferred") for piece in pieces]
@@ -314,10 +315,9 @@ def _like_the_nearest(
     return (nearest.thickness_px if alike else deep_px), nearest.drawing
 
 
-def _laid(middle: Points, axes: Sequence[Axis], thick_px: float) -> Points:
-    """A line with its ends on known walls, upright where it nearly is."""
-    hooked = _hooked(levelled(middle, axes, thick_px), axes, thick_px)
-    return levelled(hooked, axes, thick_px)
+def _laid(level: Points, axes: Sequence[Axis], thick_px: float) -> Points:
+    """A levelled line with its ends on known walls, upright where it nearly is."""
+    return levelled(_hooked(level, axes, thick_px), axes, thick_px)
 
 
 def _hooked(points: Points, axes: Sequence[Axis], thick_px: float) -> Points:

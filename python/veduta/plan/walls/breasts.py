@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.walls.solid import Thickness
-from veduta.plan.walls.tracks import Track, find_tracks
+from veduta.plan.walls.tracks import Track
 
 
 @dataclass(frozen=True)
@@ -53,14 +53,18 @@ class Band:
 
 
 def without_breasts(
-    solid: NDArray[np.bool_], thickness: Thickness, rule: BreastRule = BREAST
+    solid: NDArray[np.bool_],
+    tracks: Sequence[Track],
+    thickness: Thickness,
+    rule: BreastRule = BREAST,
 ) -> tuple[NDArray[np.bool_], int]:
-    """A mask (h, w) of walls without what stands out of them, and how many such places there are.
+    """A mask (h, w) of walls without what stands out of them, and how many such places there are;
+    the mask itself where there is none. tracks: those of the mask.
 
     Upright walls alone are looked at: their sides are rows and columns of pixels.
     """
     bands = [
-        band for track in find_tracks(solid)
+        band for track in tracks
         if (band := _band(track)) is not None and band.thick >= 0.8 * thickness.least_px
     ]  # fmt: skip
     cleared, count = solid.copy(), 0

@@ -75,9 +75,12 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
     if drawing == "single-line":
         # Tracks are whole pixels wide, which is much of a line; the measured width judges later.
         least_px -= 0.5
-    elif not known:
-        solid, _ = without_breasts(solid, thickness)
-    curved, tracks = curved_pieces(find_tracks(solid), solid, least_px, drawing)
+    tracks = find_tracks(solid)
+    if drawing != "single-line" and not known:
+        cleared, count = without_breasts(solid, tracks, thickness)
+        if count:
+            solid, tracks = cleared, find_tracks(cleared)
+    curved, tracks = curved_pieces(tracks, solid, least_px, drawing)
     pieces = straight_pieces(tracks, least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
