@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -77,12 +78,12 @@ class _Front:
     sides: Sides
     elements: list[SeenElement]
 
-    @property
+    @cached_property
     def wall(self) -> Float:
         """(h, w) the chance of wall, at the size of the evidence."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), *WALL)
 
-    @property
+    @cached_property
     def hidden(self) -> Float:
         """(h, w) the chance that something stands before the front, at the same size."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), *BEFORE)

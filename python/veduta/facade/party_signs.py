@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from veduta.facade.evidence import Evidence, Float
 from veduta.facade.eyes import Seen, SeenElement
+from veduta.facade.seen_front import WALL
 
 SIGNS = ("rows", "sizes", "colour", "lightness", "lines", "classes", "roof", "line", "parapet")
 """The names of the signs, in their order."""
-_WALL = ("wall", "cornice", "sill", "ornament", "pillar")
 _KINDS: tuple[tuple[str, ...], ...] = (
     ("window", "blind"),
     ("balcony",),
@@ -70,7 +70,7 @@ def fronts_of(
     kinds = np.stack([seen.chance_at(size, *names) for names in _KINDS])
     sky = (kinds[4] > 0.5) | ~evidence.valid
     top = np.where(sky.all(axis=0), evidence.height, (~sky).argmax(axis=0)).astype(np.float64)
-    wall = seen.chance_at(size, *_WALL)
+    wall = seen.chance_at(size, *WALL)
     return Fronts(evidence, wall, kinds, top, tuple(windows), storey)
 
 

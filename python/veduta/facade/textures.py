@@ -7,7 +7,6 @@ invented: a railing is shown once, on the railing, and not again on the wall beh
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from math import ceil, floor
 from typing import Literal
@@ -167,21 +166,12 @@ def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) 
             for each in document.mouldings
         ),
         balconies={
-            number: _darker(crop, own & seen, USUAL.iron)
-            for number, own in _balcony_masks(document, box)
-            if (own & seen).any()
+            number: _darker(crop[own], seen[own], USUAL.iron)
+            for number, element in enumerate(document.elements)
+            if element.class_ == "balcony" and seen[own := pixels_of(element, box)].any()
         },
         chimney=_typical(crop, element_mask(document, box, "chimney") & seen, USUAL.brick),
     )
-
-
-def _balcony_masks(document: FacadeDocument, box: PixelBox) -> Iterator[tuple[int, Mask]]:
-    """The number of each balcony among the elements, and where it lies in the crop."""
-    for number, element in enumerate(document.elements):
-        if element.class_ == "balcony":
-            mask = np.zeros((box.size[1], box.size[0]), dtype=np.bool_)
-            mask[pixels_of(element, box)] = True
-            yield number, mask
 
 
 def _fill_unseen(
@@ -235,7 +225,8 @@ def _surface_layer(
     surface = without_sky(crop, invented, colours.roof)
     # Below the eaves it is the wall that goes on where a lower house beside it leaves sky.
     below = rows[:, 0] >= document.facade.y_px
-    surface[below] = without_sky(crop, invented, colours.wall)[below]
+    if invented[below].any():
+        surface[below] = without_sky(crop, invented, colours.wall)[below]
     cleared = clear_surface(document, surface, box, before)
     return cleared, invented | cleared.filled
 
