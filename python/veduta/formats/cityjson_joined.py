@@ -25,8 +25,7 @@ VERTICES_AT_ONCE = 10_000
 def write_joined(path: Path, first: Mapping[str, Any], pieces: Sequence[Path]) -> None:
     """Write CityJSON from files of lines: one list of vertices for all.
 
-    The lines are read three times, one in memory at a time: for the vertices, for the objects, and
-    for where corners lie on pictures.
+    The lines are read twice, one in memory at a time: for the vertices, and for the rest.
     """
     shared, number = _shared_vertices(pieces)
     looks = _Looks()
@@ -54,22 +53,26 @@ def write_joined(path: Path, first: Mapping[str, Any], pieces: Sequence[Path]) -
             text = json.dumps(shared[row : row + VERTICES_AT_ONCE].tolist(), separators=(",", ":"))
             out.write(f"{',' if row else ''}{text[1:-1]}")
         out.write("]")
-        _write_looks(out, looks, pieces)
+        _write_looks(out, looks)
         out.write("}")
 
 
 class _Looks:
-    """Materials and textures of all lines, each once, and how many corners lie on pictures."""
+    """Materials and textures of all lines, each once, and where corners lie on pictures."""
 
     def __init__(self) -> None:
         self.materials: dict[str, int] = {}
         self.textures: dict[str, int] = {}
-        self.corners = 0
+        self.corners: list[str] = []
+        """Of each line as its text: a tenth of what the numbers take."""
+        self._count = 0
 
     def add(self, appearance: Mapping[str, Any]) -> _OneLook:
         """What a line's own numbers are in the whole."""
-        first = self.corners
-        self.corners += len(appearance.get("vertices-texture", ()))
+        first = self._count
+        if own := appearance.get("vertices-texture"):
+            self.corners.append(json.dumps(own, separators=(",", ":"))[1:-1])
+            self._count += len(own)
         return _OneLook(
             _numbers(self.materials, appearance.get("materials", ())),
             _numbers(self.textures, appearance.get("textures", ())),
@@ -101,7 +104,7 @@ def _numbers(known: dict[str, int], own: Iterable[Any]) -> list[int]:
     return [known.setdefault(json.dumps(one), len(known)) for one in own]
 
 
-def _write_looks(out: TextIO, looks: _Looks, pieces: Sequence[Path]) -> None:
+def _write_looks(out: TextIO, looks: _Looks) -> None:
     if not looks.materials:
         return
     out.write(f',"appearance":{{"default-theme-material":"{THEME}","materials":[')
@@ -109,12 +112,8 @@ def _write_looks(out: TextIO, looks: _Looks, pieces: Sequence[Path]) -> None:
     if looks.textures:
         out.write(f',"default-theme-texture":"{THEME}","textures":[{",".join(looks.textures)}]')
         out.write(',"vertices-texture":[')
-        comma = ""
-        for line in _lines(pieces):
-            corners = json.loads(line).get("appearance", {}).get("vertices-texture", ())
-            if corners:
-                out.write(f"{comma}{json.dumps(corners, separators=(',', ':'))[1:-1]}")
-                comma = ","
+        for number, text in enumerate(looks.corners):
+            out.write(f"{',' if number else ''}{text}")
         out.write("]")
     out.write("}")
 

@@ -7,7 +7,7 @@ table by name when something is read or written, and the table registers itself 
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -85,22 +85,27 @@ def format_of(path: Path) -> PlaceFormat:
     InputError where there is none.
     """
     known = formats()
-    fitting = [suffix for suffix in known if path.name.lower().endswith(suffix)]
-    if not fitting:
+    suffix = _longest(path, known)
+    if suffix is None:
         raise InputError(
             path,
             "has no ending of a format that places can be written in",
             f"Name it with one of: {', '.join(known)}",
         )
-    return known[max(fitting, key=len)]
+    return known[suffix]
+
+
+def _longest(path: Path, suffixes: Iterable[str]) -> str | None:
+    """Of those that a file's name ends in the longest; None without."""
+    return max((one for one in suffixes if path.name.lower().endswith(one)), key=len, default=None)
 
 
 def reader_of(path: Path) -> Callable[[Path], Place]:
     """What reads a file of this name; InputError where nothing does."""
     formats()
-    fitting = [suffix for suffix in _readers if path.name.lower().endswith(suffix)]
-    if fitting:
-        return _readers[max(fitting, key=len)]
+    suffix = _longest(path, _readers)
+    if suffix is not None:
+        return _readers[suffix]
     found = format_of(path)
     if found.read is None:
         fault = f"is a file that Veduta writes and does not read ({found.title})"
@@ -111,7 +116,7 @@ def reader_of(path: Path) -> Callable[[Path], Place]:
 def is_readable(path: Path) -> bool:
     """Whether a file of this name would be read."""
     known = [suffix for suffix, one in formats().items() if one.read is not None]
-    return path.name.lower().endswith((*known, *_readers))
+    return _longest(path, [*known, *_readers]) is not None
 
 
 def format_named(name: str) -> PlaceFormat:
