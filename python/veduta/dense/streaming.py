@@ -10,7 +10,7 @@ from PIL import Image
 
 from veduta.dense.build.levels import Level, levels_of
 from veduta.formats.part_tile import mesh_tile
-from veduta.formats.place_json import read_place, write_place
+from veduta.formats.place_json import name_tileset
 from veduta.formats.tiles import Box, Tile, write_tileset
 from veduta.place.mesh import Mesh
 from veduta.place.place import PlacedPart
@@ -38,9 +38,7 @@ def write_tiles(work: Work, placed: PlacedPart) -> None:
             write_bytes(folder / f"{level.name}.glb", mesh_tile(content, placed.id))
         root = replace(_tile(tree), transform=placed.standing.transform)
         write_tileset(root, folder / TILESET)
-        path = work.folder / "place.json"
-        told = read_place(path).model_copy(update={"tileset": f"{FOLDER}/{TILESET}"})
-        write_place(told, path)
+        name_tileset(work.folder / "place.json", f"{FOLDER}/{TILESET}")
         step.counts.update(tiles=len(every), finest=sum(not one.children for one in every))
         work.measure("coarsest_tile_within_m", round(tree.error_m, 4))
     work.file(f"{FOLDER}/", "the mesh in levels of detail (3D Tiles 1.1): what the studio fetches")

@@ -33,7 +33,7 @@ from veduta.drive.read.segments import cut_segments, driven_line
 from veduta.drive.record import DriveRecord
 from veduta.drive.stages import layer_segments, texture_segments
 from veduta.formats.laz import write_laz_parts
-from veduta.formats.place_json import read_place, write_place
+from veduta.formats.place_json import name_tileset
 from veduta.place.place import Place
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
@@ -195,8 +195,7 @@ def _write_tiles(
     """The segments in levels of detail, which the manifest names."""
     lift_m = record.origin_m[2] - place.origin_m[2]
     count = write_levels(outcomes, lift_m, work.folder)
-    path = work.folder / MANIFEST
-    write_place(read_place(path).model_copy(update={"tileset": f"{FOLDER}/{TILESET}"}), path)
+    name_tileset(work.folder / MANIFEST, f"{FOLDER}/{TILESET}")
     work.measure("tiles", count)
     work.file(f"{FOLDER}/", "the segments in levels of detail (3D Tiles): what the studio fetches")
 

@@ -49,3 +49,8 @@ def read_place(path: Path) -> Place:
         raise InputError(
             path, f"{field}: {first['msg']}", "Let Veduta write it again, or mend the field."
         ) from error
+
+
+def name_tileset(path: Path, tileset: str) -> None:
+    """Write into a manifest that its parts lie in tiles, too."""
+    write_place(read_place(path).model_copy(update={"tileset": tileset}), path)
