@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from record import keep_or_print
 from texture_measures import psnr, ssim
 
-from veduta.drive.build.atlas import Atlas
+from veduta.drive.build.atlas import Atlas, grid_places
 from veduta.drive.build.backdrop import backdrop_of
 from veduta.drive.build.beside import column_spacing, points_beside
 from veduta.drive.build.near_images import NearImages
@@ -107,11 +107,7 @@ def places_of(one: Textured) -> NDArray[np.float64]:
     """(h, w, 3) world points of the atlas's texels, from its rows and columns."""
     atlas, frame = one.atlas, one.geometry.frame
     grid = frame.vertices(one.background.depth)
-    shape = atlas.seen.shape
-    rows = np.interp(-(np.arange(shape[0]) + 0.5), -atlas.row, np.arange(len(atlas.row)))
-    sign = 1.0 if atlas.column[-1] > atlas.column[0] else -1.0
-    numbers = np.arange(len(atlas.column))
-    columns = np.interp(sign * (np.arange(shape[1]) + 0.5), sign * atlas.column, numbers)
+    rows, columns = grid_places(atlas.row, atlas.column, atlas.seen.shape)
     across, down = np.meshgrid(columns.astype(np.float32), rows.astype(np.float32))
     middle = frame.origins[0]
     near = (grid - middle).astype(np.float32)

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
-from veduta.surfaces import vertex_pieces
 from veduta.carve.views import View, camera_rows
-from veduta.surfaces import vertex_normals
+from veduta.surfaces import vertex_normals, vertex_pieces
 
 Floats = NDArray[np.float64]
 Triangles = NDArray[np.uint32]

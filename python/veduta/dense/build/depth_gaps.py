@@ -37,7 +37,8 @@ def closed_gaps(depths_m: NDArray[np.float32], rule: GapParameters) -> NDArray[n
     pieces, count = ndimage.label(~known)
     if not count or not known.any():
         return depths_m
-    small = np.bincount(pieces.ravel(), minlength=count + 1) <= rule.gap_px
+    sizes = np.bincount(pieces.ravel(), minlength=count + 1)
+    small = sizes <= rule.gap_px
     frame = np.concatenate([pieces[0], pieces[-1], pieces[:, 0], pieces[:, -1]])
     small[frame] = small[0] = False
     if not small.any():
@@ -49,9 +50,9 @@ def closed_gaps(depths_m: NDArray[np.float32], rule: GapParameters) -> NDArray[n
     index = np.arange(count + 1)
     low = ndimage.minimum(inverse[ring], wide[ring], index)
     high = ndimage.maximum(inverse[ring], wide[ring], index)
-    reach = np.sqrt(np.bincount(pieces.ravel(), minlength=count + 1)) + 1.0
+    reach = np.sqrt(sizes) + 1.0
     small &= np.asarray(high) <= np.asarray(low) * (1.0 + rule.step * np.minimum(reach, 4.0))
-    gap = small[pieces] & ~known
+    gap = small[pieces]
     if not gap.any():
         return depths_m
     filled = _stretched(inverse, known, gap, rounds=2 * int(np.sqrt(rule.gap_px)))

@@ -65,16 +65,28 @@ class Atlas:
             axis=1,
         ).astype(np.float32)
 
-
     def spread(self, values: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """(h, w) what a mask of the depth image (r, c) says of each texel."""
-        height, width = self.seen.shape
-        rows = np.interp(-(np.arange(height) + 0.5), -self.row, np.arange(len(self.row)))
-        sign = 1.0 if self.column[-1] > self.column[0] else -1.0
-        across = sign * (np.arange(width) + 0.5)
-        columns = np.interp(across, sign * self.column, np.arange(len(self.column)))
+        rows, columns = grid_places(self.row, self.column, self.seen.shape)
         at = np.ix_(np.rint(rows).astype(np.int64), np.rint(columns).astype(np.int64))
         return np.asarray(values[at], dtype=bool)
+
+
+def grid_places(
+    row: NDArray[np.float64],
+    column: NDArray[np.float64],
+    shape: tuple[int, ...],
+    outside: float | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(h,), (w,) the rows and columns of the depth image at the texels' middles, of which `row` and
+    `column` say the texels. outside: told beyond its ends; None: the end itself.
+    """
+    up, sign = -(np.arange(shape[0]) + 0.5), 1.0 if column[-1] > column[0] else -1.0
+    across = sign * (np.arange(shape[1]) + 0.5)
+    return (
+        np.interp(up, -row, np.arange(len(row)), left=outside, right=outside),
+        np.interp(across, sign * column, np.arange(len(column)), left=outside, right=outside),
+    )
 
 
 def lay_out(
@@ -150,10 +162,7 @@ def _texels(
     """(h, w, 3) world points of the texels' middles, NaN outside, and their unit normals."""
     origin = frame.origins[len(frame.origins) // 2]
     grid = (frame.vertices(depth) - origin).astype(np.float32)
-    rows = np.interp(-(np.arange(shape[0]) + 0.5), -row, np.arange(len(row)), left=-1, right=-1)
-    sign = 1.0 if column[-1] > column[0] else -1.0
-    across, numbers = sign * (np.arange(shape[1]) + 0.5), np.arange(len(column))
-    columns = np.interp(across, sign * column, numbers, left=-1, right=-1)
+    rows, columns = grid_places(row, column, shape, outside=-1.0)
     at = np.meshgrid(columns.astype(np.float32), rows.astype(np.float32))
     place: NDArray[Any] = cv2.remap(
         grid, at[0], at[1], cv2.INTER_LINEAR,
