@@ -48,6 +48,7 @@ def _tell_failures(result: CallResult) -> None:
 
 def _tell_results(result: CallResult) -> None:
     from veduta.facade.arrangement import wall_line
+    from veduta.facade.house_folders import beside_found
     from veduta.facade.label_pictures import labels_note
     from veduta.facade.report import adjusted_line, summary_line
 
@@ -60,6 +61,8 @@ def _tell_results(result: CallResult) -> None:
         also = wall_line(summary), summary.get("style"), summary.get("houses")
         for said in filter(None, also):
             print(f"{' ' * len(name)}  {said}")
+        for folder, found in beside_found(summary):
+            print(f"{' ' * len(name)}  {folder}: {summary_line(found)}")
         if adjusted:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
     for path in _edited(result):

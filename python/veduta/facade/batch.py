@@ -20,6 +20,7 @@ from veduta.facade.load import DOCUMENT, load_document, load_photo
 from veduta.facade.options import FacadeOptions, OntoOptions
 from veduta.facade.pipeline import VERSION
 from veduta.facade.report import call_report
+from veduta.facade.style_told import search_note
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError
 from veduta.run.names import real_path
@@ -127,6 +128,8 @@ def run_call(
             folder.record.inputs = result.asked
         if waiting:
             result.up_to_date = False
+            if options.style.style is not None:
+                progress.said(search_note(options.style, len(waiting)))
             _process(waiting, folder, call, options, result, progress, jobs)
         elif amend:
             result.up_to_date = True

@@ -65,16 +65,23 @@ def with_numbers(documents: Sequence[FacadeDocument]) -> list[FacadeDocument]:
 
 
 def beside_told(
-    main: FacadeDocument, others: Sequence[tuple[str, FacadeDocument, Part]]
+    main: FacadeDocument,
+    others: Sequence[tuple[str, FacadeDocument, Part]],
+    told: Sequence[Mapping[str, JsonValue]] = (),
 ) -> dict[str, JsonValue]:
-    """What the summary of a photo says of its other houses; nothing where there are none."""
+    """What the summary of a photo says of its other houses; nothing where there are none.
+
+    told: the numbers of each, as a summary has those of the main one.
+    """
     if not others:
         return {}
     rows: list[JsonValue] = []
-    for folder, document, part in others:
+    numbers = told or [{} for _ in others]
+    for (folder, document, part), found in zip(others, numbers, strict=True):
         low, high = part.bounds_m
         rows.append(
             {
+                **found,
                 "folder": folder,
                 "storeys": document.storeys,
                 "offset_m": offset_between(main, document),
@@ -150,6 +157,12 @@ def beside_line(summary: Mapping[str, JsonValue]) -> str:
         return ""
     more = "1 more house" if len(rows) == 1 else f"{len(rows)} more houses"
     return f"{more} of the photo: {', '.join(str(row['folder']) for row in rows)}"
+
+
+def beside_found(summary: Mapping[str, JsonValue]) -> list[tuple[str, Mapping[str, JsonValue]]]:
+    """The folder of each further house with its numbers; those of an older run have none."""
+    rows = cast(list[dict[str, JsonValue]], summary.get(BESIDE) or [])
+    return [(str(row["folder"]), row) for row in rows if "windows" in row]
 
 
 def _vector(value: JsonValue) -> Vector:

@@ -12,6 +12,7 @@ from pydantic import JsonValue
 from veduta.facade.adjusted import count_adjusted
 from veduta.facade.arrangement import stands
 from veduta.facade.call import Input
+from veduta.facade.document import FacadeDocument
 from veduta.facade.house_folders import beside_told, houses_doubt
 from veduta.facade.load import PHOTO
 from veduta.facade.options import FacadeOptions, RectifyOptions
@@ -112,8 +113,25 @@ def _write_report(folder: Path, report: tuple[Report, bytes]) -> None:
 
 
 def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue]:
-    found = measures(building.document)
     low, high = building.part.bounds_m
+    others = [(name, one.document, one.part) for name, one in building.beside]
+    numbers = [_numbers(one.document) for _, one in building.beside]
+    return {
+        **stands(building.document),
+        **_numbers(building.document),
+        **({} if building.style is None else {"style": building.style.line}),
+        **houses_doubt(building.document),
+        **count_adjusted(building.part.notes),
+        **beside_told(building.document, others, numbers),
+        "seconds": round(sum(step.seconds for step in steps), 3),
+        "bounds_min": list(low),
+        "bounds_max": list(high),
+    }
+
+
+def _numbers(document: FacadeDocument) -> dict[str, JsonValue]:
+    """What the line of a house at the terminal is made of."""
+    found = measures(document)
     kept = (
         "storeys",
         "storeys_doubtful",
@@ -126,14 +144,4 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
         "corners_doubtful",
         "scale",
     )
-    return {
-        **stands(building.document),
-        **{name: found[name] for name in kept},
-        **({} if building.style is None else {"style": building.style.line}),
-        **houses_doubt(building.document),
-        **count_adjusted(building.part.notes),
-        **beside_told(building.document, [(n, b.document, b.part) for n, b in building.beside]),
-        "seconds": round(sum(step.seconds for step in steps), 3),
-        "bounds_min": list(low),
-        "bounds_max": list(high),
-    }
+    return {name: found[name] for name in kept}

@@ -80,7 +80,7 @@ def placed_how(lots: Lots, blocks: Sequence[Square]) -> str:
     """Where on the Earth the tiles of lots stand, in words."""
     grid = _grid(lots, blocks)
     if grid is not None:
-        within = "" if grid.accuracy_m is None else f", known to {max(grid.accuracy_m, 0.1):g} m"
+        within = "" if grid.accuracy_m is None else f" (right to {max(grid.accuracy_m, 0.1):g} m)"
         return f"the tiles stand on the Earth by {grid.name}{within}"
     if lots.crs is None:
         what = "the lots name no CRS"

@@ -16,9 +16,11 @@ from veduta.facade.eyes import SeenElement
 from veduta.facade.house_folders import (
     HOUSES_DOUBTED,
     Beside,
+    beside_found,
     beside_kept,
     beside_line,
     beside_of,
+    beside_told,
     houses_doubt,
 )
 from veduta.facade.houses import (
@@ -29,7 +31,9 @@ from veduta.facade.houses import (
     party_walls_of,
     storey_of,
 )
+from veduta.facade.model import build_model
 from veduta.facade.party_signs import SIGNS, Fronts, signs_at
+from veduta.facade.report import summary_line
 
 HEIGHT, WIDE = 400, 240
 COLOURS = [(205, 180, 140), (150, 190, 160), (180, 120, 90)]
@@ -164,6 +168,17 @@ def test_what_a_summary_says_of_the_others_comes_back() -> None:
     assert beside_of(told) == (Beside("house-2", (0.0, 0.0, 0.0), (6.0, 10.0, 9.0), 8.0),)
     assert beside_line(told) == "1 more house of the photo: house-2"
     assert (beside_of({}), beside_line({})) == ((), "")
+    assert beside_found(told) == [], "a run before these numbers were kept"
+
+
+def test_each_further_house_has_a_line_of_numbers() -> None:
+    main, other = _house(0, 100, 0.05), _house(100, 80, 0.05)
+    part = build_model(sample_document(), np.full((800, 520, 3), 150, np.uint8), "b").part
+    numbers = {"windows": 7, "width_m": 4.0, "height_m": 9.5, "scale": "assumed"}
+    told = beside_told(main, [("house-2", other, part)], [numbers])
+    ((folder, found),) = beside_found(told)
+    assert folder == "house-2"
+    assert summary_line(found) == "5 storeys, 7 windows, 4.0 x 9.5 m (scale assumed)"
 
 
 def test_a_photo_that_is_called_as_a_house_keeps_its_id() -> None:
