@@ -60,18 +60,18 @@ def fuse_cloud(
     for view in sorted(links):
         shown = [view, *(one for one in links[view] if one in links)]
         maps = [depth_map(one) for one in shown]
+        masks = [_unpacked(used[one], views, one) for one in shown]
         points, normals, colours, counts, taken = _core.fuse_depths(
             [one.depths_m for one in maps],
             np.stack([camera_row(views.cameras[one]) for one in shown]),
             [one.normals for one in maps],
             [views.pixels(one).reshape(-1, 3) for one in shown],
-            [_unpacked(used[one], views, one) for one in shown],
+            masks,
             most_px=parameters.most_px,
             most_share=parameters.most_share,
             least=min(least, len(shown)),
         )
-        for one, pixels in zip(shown, taken, strict=True):
-            marked = _unpacked(used[one], views, one)
+        for one, marked, pixels in zip(shown, masks, taken, strict=True):
             marked.ravel()[pixels] = True
             used[one] = _packed(marked)
         found: list[NDArray[Any]] = [points, normals, colours, counts]
