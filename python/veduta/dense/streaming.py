@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import io
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
-from veduta.dense.build.levels import Level, levels_of
+from veduta.dense.build.levels import Level, LevelParameters, levels_of
 from veduta.formats.part_tile import mesh_tile
 from veduta.formats.place_json import name_tileset
 from veduta.formats.tiles import Box, Tile, write_tileset
@@ -16,13 +17,15 @@ from veduta.place.mesh import Mesh
 from veduta.place.place import PlacedPart
 from veduta.run.atomic import write_bytes
 from veduta.run.work import Work
+from veduta.surfaces import carry_texture, own_texture
+from veduta.surfaces.texturing.charts import TooLargeError
 
-FOLDER, TILESET, ATLAS = "tiles", "tileset.json", "atlas.webp"
+FOLDER, TILESET = "tiles", "tileset.json"
 QUALITY = 88
 MOST_WEBP_PX = 16_383
 
 
-def write_tiles(work: Work, placed: PlacedPart) -> None:
+def write_tiles(work: Work, placed: PlacedPart, parameters: LevelParameters | None = None) -> None:
     """Write the levels of a mesh of the place in the work's folder; its manifest names them."""
     mesh = placed.content
     if not isinstance(mesh, Mesh):
@@ -30,11 +33,17 @@ def write_tiles(work: Work, placed: PlacedPart) -> None:
     with work.step("tiles") as step:
         folder = work.folder / FOLDER
         folder.mkdir(exist_ok=True)
-        fine = _with_picture(work, mesh)
-        tree = levels_of(mesh)
+        rule = parameters or LevelParameters()
+        tree = levels_of(mesh, rule)
         every = list(tree.all())
-        for level in every:
-            content = level.plain or part_of(fine, level.triangles)
+        for number, level in enumerate(every):
+            work.progress("tiles", number / len(every))
+            try:
+                content = content_of(mesh, level, rule)
+            except TooLargeError as error:
+                step.rejected.append(f"{level.name}: coloured without a picture: {error}")
+                content = level.plain or replace(part_of(mesh, level.triangles), uv=None)
+            content = _beside(folder, level.name, content)
             write_bytes(folder / f"{level.name}.glb", mesh_tile(content, placed.id))
         root = replace(_tile(tree), transform=placed.standing.transform)
         write_tileset(root, folder / TILESET)
@@ -59,16 +68,31 @@ def part_of(mesh: Mesh, chosen: np.ndarray[tuple[int, ...], np.dtype[np.intp]]) 
     )
 
 
-def _with_picture(work: Work, mesh: Mesh) -> Mesh:
-    """The mesh with its texture in a file that all tiles share."""
+def content_of(mesh: Mesh, level: Level, parameters: LevelParameters) -> Mesh:
+    """What a piece shows: its triangles, with a picture of its own where the mesh has a texture.
+
+    That of a plainer piece is at most `picture_px` a side: of four pieces it has the same spots
+    with half of the pixels along a side. TooLargeError where the picture has no room for them.
+    """
+    piece = part_of(mesh, level.triangles)
+    if mesh.uv is None or mesh.materials[0].texture is None:
+        return level.plain or piece
+    if level.plain is None:
+        return own_texture(piece, 1.0, MOST_WEBP_PX)
+    shown = carry_texture(piece, level.plain.positions_m, level.plain.triangles)
+    return own_texture(shown, 1.0, parameters.picture_px)
+
+
+def _beside(folder: Path, name: str, mesh: Mesh) -> Mesh:
+    """The mesh with its texture as a file beside it."""
     texture = mesh.materials[0].texture
-    if texture is None or max(texture.pixels.shape) > MOST_WEBP_PX:
+    if texture is None:
         return mesh
     data = io.BytesIO()
     Image.fromarray(texture.pixels).save(data, "WEBP", quality=QUALITY)
-    write_bytes(work.folder / FOLDER / ATLAS, data.getvalue())
+    write_bytes(folder / f"{name}.webp", data.getvalue())
     material = replace(mesh.materials[0], texture=None)
-    return replace(mesh, materials=(material,), pictures={material.name: ATLAS})
+    return replace(mesh, materials=(material,), pictures={material.name: f"{name}.webp"})
 
 
 def _tile(level: Level) -> Tile:

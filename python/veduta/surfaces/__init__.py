@@ -9,11 +9,14 @@ from veduta.surfaces.filling.step import Filled, fill_holes
 from veduta.surfaces.normals import face_normals, vertex_normals
 from veduta.surfaces.pieces import compact, vertex_pieces
 from veduta.surfaces.simplification import Simplified, simplify
+from veduta.surfaces.texturing.carried import CarryParameters, carry_texture
+from veduta.surfaces.texturing.islands import own_texture
 from veduta.surfaces.texturing.options import SurfaceView, TextureOptions, TextureParameters
 from veduta.surfaces.texturing.photos import surface_views
 from veduta.surfaces.texturing.step import TexturedMesh, texture_mesh
 
 __all__ = [
+    "CarryParameters",
     "FillParameters",
     "Filled",
     "RepeatParameters",
@@ -23,12 +26,14 @@ __all__ = [
     "TextureOptions",
     "TextureParameters",
     "TexturedMesh",
+    "carry_texture",
     "compact",
     "distances_from_mesh",
     "face_normals",
     "fill_by_repeats",
     "fill_holes",
     "neighbours",
+    "own_texture",
     "simplify",
     "surface_nets",
     "surface_views",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from scipy.spatial import cKDTree
 
 from veduta.dense.build.levels import LevelParameters, levels_of, vertex_colours
@@ -104,7 +105,7 @@ def test_tiles_are_named_in_the_place_and_complete(tmp_path: Path, textured: boo
     assert read_place(out / "place.json").tileset == f"{FOLDER}/{TILESET}"
     files = contents(out / FOLDER, TILESET)
     assert sum(name.endswith(".glb") for name in files) == 1  # 7,200 triangles are one piece
-    assert textured == ("atlas.webp" in files)
+    assert textured == ("0.webp" in files)
     root = json.loads((out / FOLDER / TILESET).read_bytes())["root"]
     assert root["transform"][12:15] == [10.0, 20.0, 1.5]
     box = np.array(root["boundingVolume"]["box"])
@@ -113,3 +114,25 @@ def test_tiles_are_named_in_the_place_and_complete(tmp_path: Path, textured: boo
     again = Place.load(out)
     assert len(again.untiled().parts) == 1
     again.write(tmp_path / "hills.obj")
+
+
+def test_every_level_has_a_picture_of_its_own(tmp_path: Path) -> None:
+    place = Place(title="hills")
+    place.add(_hills(textured=True), Standing())
+    rule = LevelParameters(leaf_triangles=2_000, picture_px=48)
+
+    def make(work: Work) -> None:
+        place.save(work.folder)
+        write_tiles(work, next(iter(place.parts.values())), rule)
+
+    out = tmp_path / "out"
+    call = VerbCall(command="dense", version="1", subject="a", options=Options(), inputs=[])
+    assert run_verb(call, out, make, Progress(quiet=True)).exit_code == 0
+    files = contents(out / FOLDER, TILESET)
+    tiles = sorted(Path(name).stem for name in files if name.endswith(".glb"))
+    assert tiles == ["0", "00", "01", "02", "03"]
+    for name in tiles:
+        picture = np.asarray(Image.open(out / FOLDER / f"{name}.webp"))
+        assert max(picture.shape) <= (48 if name == "0" else 64)
+        red = picture[..., 0].astype(float)  # it grows to the right, as in the mesh's texture
+        assert red[len(red) // 2, -6] > red[len(red) // 2, 6] + (180 if name == "0" else 60)

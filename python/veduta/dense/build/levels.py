@@ -17,9 +17,13 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LevelParameters:
-    """leaf_triangles: a piece with fewer is shown as it is; a plainer one has so many at most."""
+    """leaf_triangles: a piece with fewer is shown as it is; a plainer one has so many at most.
+
+    picture_px: longest side of a plainer piece's texture.
+    """
 
     leaf_triangles: int = 40_000
+    picture_px: int = 1024
 
 
 @dataclass(frozen=True, eq=False)

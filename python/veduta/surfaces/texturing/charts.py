@@ -75,9 +75,9 @@ def chart(
         lows = np.floor(low * scale).astype(np.int64) - padding_px
         sizes = np.ceil(high * scale).astype(np.int64) + padding_px - lows
         boxes = np.concatenate([sizes, np.full((swatches, 2), SWATCH_PX)])
-        packed = _packed(boxes, largest_px)
-        if packed is not None:
-            corners, width, height = packed
+        laid = packed(boxes, largest_px)
+        if laid is not None:
+            corners, width, height = laid
             return Charts(
                 views,
                 lows,
@@ -93,7 +93,7 @@ def chart(
     raise TooLargeError(f"{charts} charts do not fit into {largest_px} px")
 
 
-def _packed(boxes: NDArray[np.int64], largest_px: int) -> tuple[NDArray[np.int64], int, int] | None:
+def packed(boxes: NDArray[np.int64], largest_px: int) -> tuple[NDArray[np.int64], int, int] | None:
     """(b, 2) corners of the boxes on shelves, the tallest first, and the size; None: too large."""
     if not len(boxes):
         return np.zeros((0, 2), dtype=np.int64), 4, 4
