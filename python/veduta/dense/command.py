@@ -53,7 +53,7 @@ from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 from veduta.surfaces import Simplified, simplify, vertex_normals
 
-VERSION = "5"
+VERSION = "6"
 SURFACE = "surface"
 
 
