@@ -58,7 +58,7 @@ def _tell_results(result: CallResult) -> None:
         print(f"{name}: {summary_line(result.summaries[name])}{_state(name, result)}")
         adjusted = adjusted_line(result.summaries[name])
         summary = result.summaries[name]
-        also = wall_line(summary), summary.get("style"), summary.get("houses")
+        also = wall_line(summary), summary.get("style"), summary.get("houses"), summary.get("glass")
         for said in filter(None, also):
             print(f"{' ' * len(name)}  {said}")
         for folder, found in beside_found(summary):

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from veduta.facade.boxes import Box
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, RoofKind, Source
 from veduta.facade.evidence import Evidence, Float, gather
@@ -14,6 +16,7 @@ from veduta.facade.extent import Skyline, find_skyline, row_histograms
 from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
 from veduta.facade.floors import Floors, split_floors
 from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
+from veduta.facade.glass import Glass, find_glass, glass_note, with_panes
 from veduta.facade.heads import with_heads
 from veduta.facade.hidden_windows import hidden_windows
 from veduta.facade.house_folders import HOUSES_DOUBTED
@@ -77,6 +80,7 @@ class _Front:
     sky: Skyline
     sides: Sides
     elements: list[SeenElement]
+    glass: Glass | None = None
 
     @cached_property
     def wall(self) -> Float:
@@ -87,6 +91,16 @@ class _Front:
     def hidden(self) -> Float:
         """(h, w) the chance that something stands before the front, at the same size."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), *BEFORE)
+
+    def panes_from(self, left: int) -> Callable[[Box], bool]:
+        """Whether a box that counts from a column is a pane of glass, which has no arched head."""
+
+        def is_pane(box: Box) -> bool:
+            x0, y1 = float(box.x + left), float(box.y + box.height)
+            one = SeenElement(box.kind, x0, float(box.y), x0 + box.width, y1, box.score)
+            return self.glass is not None and self.glass.replaces(one)
+
+        return is_pane
 
     def between(self, left: int, right: int) -> list[SeenElement]:
         """The elements between two columns of the evidence, from the left one on."""
@@ -150,6 +164,8 @@ def _houses(front: _Front) -> tuple[list[Sides], str]:
     own, sides = HouseParameters(), front.sides
     elements = front.between(0, front.evidence.width)
     found = find_party_walls(front.evidence, front.seen, elements, own)
+    if front.glass is not None:
+        found = found.without(front.glass.goes_on)
     windows = [e for e in elements if e.kind == "window"]
     if found.walls:
         storey = storey_of(windows)
@@ -233,11 +249,15 @@ def _look_at(
         sky = find_skyline(evidence)
         named = rectified.record.method == "corners"
         sides = whole(evidence) if named else _sides(evidence, sky, seen, elements, front)
+        glass = find_glass(evidence, seen)
+        elements = with_panes(elements, glass, evidence.px_per_rectified)
         _, skyline = crop(evidence, sky, sides)
         step.counts |= {"skyline_row": skyline.level, "left": sides.left, "right": sides.right}
         if skyline.reason:
             step.rejected.append(f"sky: {skyline.reason}")
-    return _Front(rectified, source, seen, evidence, sky, sides, elements)
+        if glass is not None:
+            step.counts["panes"] = len(glass.panes)
+    return _Front(rectified, source, seen, evidence, sky, sides, elements, glass)
 
 
 def _read(
@@ -261,7 +281,8 @@ def _read(
     with timed_step(steps, "openings") as step:
         columns = columns_of(elements)
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)
-        boxes = with_heads(boxes, inner.lab)
+        panes = front.panes_from(sides.left)
+        boxes = [*with_heads([b for b in boxes if not panes(b)], inner.lab), *filter(panes, boxes)]
         above = len(storeys.floors.boundaries) - 1
         before = front.hidden[: inner.height, sides.left : sides.right]
         hidden = hidden_windows(boxes, columns, above, before)
@@ -279,6 +300,8 @@ def _read(
         )  # fmt: skip
         document = compose(parse, front.rectified, front.source, options)
         notes = [*document.notes, *hidden_notes(front.seen, FrontParameters())]
+        metres_per_px = document.scale.metres_per_px / front.evidence.px_per_rectified
+        notes += filter(None, [glass_note(front.glass, metres_per_px)])
         if hidden:
             notes.append(f"windows: {len(hidden)} are hidden, and taken to be as those beside them")
         return document.model_copy(update={"notes": notes})

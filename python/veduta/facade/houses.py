@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,6 +51,13 @@ class PartyWalls:
 
     walls: tuple[PartyWall, ...]
     doubtful: PartyWall | None = None
+
+    def without(self, goes_on: Callable[[float], bool]) -> PartyWalls:
+        """Those at whose column no one house goes on."""
+        doubtful = self.doubtful
+        if doubtful is not None and goes_on(doubtful.x):
+            doubtful = None
+        return PartyWalls(tuple(wall for wall in self.walls if not goes_on(wall.x)), doubtful)
 
 
 def find_party_walls(

@@ -13,6 +13,7 @@ from veduta.facade.adjusted import count_adjusted
 from veduta.facade.arrangement import stands
 from veduta.facade.call import Input
 from veduta.facade.document import FacadeDocument
+from veduta.facade.glass import GLASS_TOLD
 from veduta.facade.house_folders import beside_told, houses_doubt
 from veduta.facade.load import PHOTO
 from veduta.facade.options import FacadeOptions, RectifyOptions
@@ -121,6 +122,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
         **_numbers(building.document),
         **({} if building.style is None else {"style": building.style.line}),
         **houses_doubt(building.document),
+        **_glass(building.document),
         **count_adjusted(building.part.notes),
         **beside_told(building.document, others, numbers),
         "seconds": round(sum(step.seconds for step in steps), 3),
@@ -145,3 +147,9 @@ def _numbers(document: FacadeDocument) -> dict[str, JsonValue]:
         "scale",
     )
     return {name: found[name] for name in kept}
+
+
+def _glass(document: FacadeDocument) -> dict[str, JsonValue]:
+    """What the summary says of a front of glass."""
+    said = [note for note in document.notes if note.startswith(GLASS_TOLD)]
+    return {"glass": said[0]} if said else {}

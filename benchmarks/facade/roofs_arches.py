@@ -1,0 +1,194 @@
+"""Roofs and arched heads: told on pictures of CMP that neither step was looked at on, and renders.
+
+    python benchmarks facade/roofs_arches [--kept FILE] [--most 20] [--draft]
+
+`roofs_arches_marked.json` has, by eye, what ends each front of CMP: `gable`, `roof` (a slope is
+seen over the eaves), `none` (a cornice or a parapet), or `unsure`; and rectangles, as shares of
+width and height, in which all windows and doors have arched heads, or a person is in doubt. All
+others have level heads. `gable.py` and `heads.py` were looked at on every third picture up to
+b0240: the marked ones are those from b0241 on, and some others for their roofs. Renders are fronts
+of styles whose roofs the rules say. What was read of each picture is kept in FILE as it comes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from record import Row, keep_or_print
+from style_fronts import true_front
+
+from veduta.facade.analyse import read_houses
+from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.house_folders import main_house
+from veduta.facade.options import FacadeOptions, RectifyOptions
+from veduta.facade.rectify import rectify
+from veduta.imaging.read import Photo, read_image
+from veduta.run.errors import NotFoundError
+
+HERE = Path(__file__).parent
+DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
+HELD_FROM = 241
+RENDERED = {
+    "modern-slab": ("none", range(6)),
+    "haussmann": ("roof", range(3)),
+    "restauration": ("roof", range(3)),
+}
+"""Styles with what ends their fronts, and seeds."""
+TOLD = {"flat": "none", "mansard": "roof", "hip": "gable", "gable": "gable"}
+"""What a document says; the end of a hipped roof has a gable's outline."""
+KINDS = ("none", "roof", "gable")
+Found = dict[str, Any]
+Share = Sequence[float]
+
+
+def main() -> None:
+    """Read, compare, record."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--kept", type=Path, help="where what was read is kept as it comes")
+    parser.add_argument("--most", type=int, help="read no more than so many pictures")
+    parser.add_argument("--draft", action="store_true", help="keep nothing")
+    call = parser.parse_args()
+    marks = json.loads((HERE / "roofs_arches_marked.json").read_text("utf-8"))
+    for style, (roof, seeds) in RENDERED.items():
+        marks |= {f"{style} {seed}": {"roof": roof} for seed in seeds}
+    found = read_all(list(marks), call.kept, call.most)
+    rows = [*_roofs(marks, found), *_arches(marks, found)]
+    keep_or_print("facade-roofs-arches", rows, [LEGEND, *_wrong(marks, found)], not call.draft)
+
+
+LEGEND = (
+    "Roofs: of fronts that end in nothing but a cornice or parapet (none), in a slope (roof) or a"
+    " gable or hip, how many are told as each. Arches: of openings that were read where all are"
+    " arched, and where all are level, how many are told as arched. No picture was tuned on."
+)
+
+
+def read_all(names: Sequence[str], path: Path | None, most: int | None) -> dict[str, Found]:
+    """What is read of each, from the file where it has it."""
+    known: dict[str, Found] = {}
+    if path is not None and path.exists():
+        known = dict(json.loads(line) for line in path.read_text("utf-8").splitlines())
+    for name in [one for one in names if one not in known][:most]:
+        known[name] = _found(read(name))
+        if path is not None:
+            with path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps([name, known[name]]) + "\n")
+    return {name: known[name] for name in names if name in known}
+
+
+def read(name: str) -> FacadeDocument | None:
+    """The document of a picture's main house; None where it is refused."""
+    photo = _photo(name)
+    options = FacadeOptions(rectify=RectifyOptions(rectified=True))
+    height, width = photo.pixels.shape[:2]
+    source = Source(image=name, sha256=photo.sha256, width_px=width, height_px=height)
+    try:
+        documents, _, _ = read_houses(rectify(photo, options.rectify), source, options)
+    except NotFoundError:
+        return None
+    return documents[main_house(documents)]
+
+
+def _photo(name: str) -> Photo:
+    if name.startswith("cmp"):
+        return read_image(DATA / "facades/cmp" / f"{name}.jpg")
+    style, _, seed = name.partition(" ")
+    pixels = true_front(style, int(seed), 800).pixels
+    return Photo(pixels, "0" * 64, None, None, Path(name))
+
+
+def _found(document: FacadeDocument | None) -> Found:
+    if document is None:
+        return {}
+    wide, high = document.rectification.width_px, document.rectification.height_px
+    openings = [
+        [
+            round((one.x_px + 0.5 * one.width_px) / wide, 4),
+            round((one.y_px + 0.5 * one.height_px) / high, 4),
+            bool(one.outline_px),
+        ]
+        for one in document.elements
+        if one.class_ in ("window", "door")
+    ]
+    return {
+        "roof": document.roof,
+        "roof_m": round(document.rules.roof_height_m, 2),
+        "openings": openings,
+    }
+
+
+def _roofs(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[Row]:
+    for title, is_render in (("CMP", False), ("renders", True)):
+        for true in KINDS:
+            some = [
+                found[name]
+                for name in found
+                if marks[name]["roof"] == true and (" " in name) == is_render
+            ]
+            if not some:
+                continue
+            told = Counter(TOLD[one["roof"]] if one else "refused" for one in some)
+            columns = {f"told {kind}": told[kind] for kind in (*KINDS, "refused")}
+            yield {
+                "what": f"roofs, {title}: {true}", "number": len(some), **columns,
+                "right": round(told[true] / len(some), 2),
+            }  # fmt: skip
+
+
+def _arches(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[Row]:
+    counts: Counter[tuple[bool, bool]] = Counter()
+    for name, true, told in _openings(marks, found):
+        if int(name.removeprefix("cmp_b")) >= HELD_FROM:
+            counts[true, told] += 1
+    for true in (True, False):
+        number = counts[true, True] + counts[true, False]
+        yield {
+            "what": f"heads, CMP: {'arched' if true else 'level'}",
+            "number": number,
+            "told arched": counts[true, True],
+            "right": round(counts[true, true] / max(1, number), 2),
+        }
+    told = counts[True, True] + counts[False, True]
+    yield {
+        "what": "heads, CMP: of those told as arched",
+        "number": told,
+        "right": round(counts[True, True] / max(1, told), 2),
+    }
+
+
+def _openings(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[tuple[str, bool, bool]]:
+    """The picture of each opening that is read and no doubt, whether it is arched, and told so."""
+    for name, one in found.items():
+        mark = marks[name]
+        if "arched" not in mark or not one:
+            continue
+        for x, y, told in one["openings"]:
+            if not _inside(x, y, mark["unsure"]):
+                yield name, _inside(x, y, mark["arched"]), told
+
+
+def _inside(x: float, y: float, some: Sequence[Share]) -> bool:
+    return any(x0 <= x <= x1 and y0 <= y <= y1 for x0, y0, x1, y1 in some)
+
+
+def _wrong(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[str]:
+    """Which pictures are told wrongly, for whoever looks at them."""
+    roofs = [
+        f"{name} {marks[name]['roof']} as {one['roof']} ({one['roof_m']} m)"
+        for name, one in found.items()
+        if one and marks[name]["roof"] in KINDS and TOLD[one["roof"]] != marks[name]["roof"]
+    ]
+    yield f"Roofs told wrongly: {', '.join(roofs) or 'none'}."
+    heads = Counter(name for name, true, told in _openings(marks, found) if true != told)
+    told = ", ".join(f"{name} {count}" for name, count in heads.most_common(12))
+    yield f"Heads told wrongly, by picture: {told or 'none'}."
+
+
+if __name__ == "__main__":
+    main()
