@@ -1,4 +1,4 @@
-"""Roofs and arched heads: told on pictures of CMP that neither step was looked at on, and renders.
+"""Roofs, arched heads and fronts of glass: told on pictures that no step was looked at on.
 
     python benchmarks facade/roofs_arches [--kept FILE] [--most 20] [--draft]
 
@@ -21,10 +21,11 @@ from pathlib import Path
 from typing import Any
 
 from record import Row, keep_or_print
-from style_fronts import true_front
+from style_fronts import TrueFront, true_front
 
 from veduta.facade.analyse import read_houses
 from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.glass import GLASS_TOLD
 from veduta.facade.house_folders import main_house
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.rectify import rectify
@@ -42,6 +43,8 @@ RENDERED = {
 """Styles with what ends their fronts, and seeds."""
 TOLD = {"flat": "none", "mansard": "roof", "hip": "gable", "gable": "gable"}
 """What a document says; the end of a hipped roof has a gable's outline."""
+GLASS = {"curtain": range(10, 16), "bands": range(10, 14), "loggias": range(10, 13)}
+"""Fronts of `modern-slab` with seeds: the first two are of glass."""
 KINDS = ("none", "roof", "gable")
 Found = dict[str, Any]
 Share = Sequence[float]
@@ -57,8 +60,10 @@ def main() -> None:
     marks = json.loads((HERE / "roofs_arches_marked.json").read_text("utf-8"))
     for style, (roof, seeds) in RENDERED.items():
         marks |= {f"{style} {seed}": {"roof": roof} for seed in seeds}
+    for facade, seeds in GLASS.items():
+        marks |= {f"modern-slab {seed} {facade}": {"roof": "unsure"} for seed in seeds}
     found = read_all(list(marks), call.kept, call.most)
-    rows = [*_roofs(marks, found), *_arches(marks, found)]
+    rows = [*_roofs(marks, found), *_arches(marks, found), *_glass(found)]
     keep_or_print("facade-roofs-arches", rows, [LEGEND, *_wrong(marks, found)], not call.draft)
 
 
@@ -76,6 +81,8 @@ def read_all(names: Sequence[str], path: Path | None, most: int | None) -> dict[
         known = dict(json.loads(line) for line in path.read_text("utf-8").splitlines())
     for name in [one for one in names if one not in known][:most]:
         known[name] = _found(read(name))
+        if " " in name:
+            known[name]["floors"] = floors_of(name)
         if path is not None:
             with path.open("a", encoding="utf-8") as file:
                 file.write(json.dumps([name, known[name]]) + "\n")
@@ -98,9 +105,17 @@ def read(name: str) -> FacadeDocument | None:
 def _photo(name: str) -> Photo:
     if name.startswith("cmp"):
         return read_image(DATA / "facades/cmp" / f"{name}.jpg")
-    style, _, seed = name.partition(" ")
-    pixels = true_front(style, int(seed), 800).pixels
-    return Photo(pixels, "0" * 64, None, None, Path(name))
+    return Photo(_rendered(name).pixels, "0" * 64, None, None, Path(name))
+
+
+def _rendered(name: str) -> TrueFront:
+    style, seed, *facade = name.split(" ")
+    return true_front(style, int(seed), 800, {"facade": facade[0]} if facade else None)
+
+
+def floors_of(name: str) -> int:
+    """Floors of a rendered front, with the ground floor."""
+    return 1 + int(float(_rendered(name).state.attributes["storeys"]))
 
 
 def _found(document: FacadeDocument | None) -> Found:
@@ -119,6 +134,8 @@ def _found(document: FacadeDocument | None) -> Found:
     return {
         "roof": document.roof,
         "roof_m": round(document.rules.roof_height_m, 2),
+        "storeys": document.storeys,
+        "glass": any(note.startswith(GLASS_TOLD) for note in document.notes),
         "openings": openings,
     }
 
@@ -154,12 +171,38 @@ def _arches(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[Row]:
             "told arched": counts[true, True],
             "right": round(counts[true, true] / max(1, number), 2),
         }
-    told = counts[True, True] + counts[False, True]
+    called = counts[True, True] + counts[False, True]
     yield {
         "what": "heads, CMP: of those told as arched",
-        "number": told,
-        "right": round(counts[True, True] / max(1, told), 2),
+        "number": called,
+        "right": round(counts[True, True] / max(1, called), 2),
     }
+
+
+def _glass(found: dict[str, Found]) -> Iterator[Row]:
+    groups = {
+        f"renders, {facade}": [f"modern-slab {seed} {facade}" for seed in seeds]
+        for facade, seeds in GLASS.items()
+    }
+    groups["CMP held out, b0280"] = ["cmp_b0280"]
+    groups["CMP held out, the others"] = [
+        name
+        for name in found
+        if name.startswith("cmp") and name != "cmp_b0280" and int(name[5:]) >= HELD_FROM
+    ]
+    for title, names in groups.items():
+        some = [found[name] for name in names if found.get(name)]
+        told = sum(one["glass"] for one in some)
+        right = told if title.endswith(("curtain", "bands", "b0280")) else len(some) - told
+        yield {
+            "what": f"glass, {title}",
+            "number": len(some),
+            "told glass": told,
+            "right": round(right / max(1, len(some)), 2),
+            "storeys right": sum(one["storeys"] == one["floors"] for one in some)
+            if title.startswith("renders")
+            else None,
+        }
 
 
 def _openings(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[tuple[str, bool, bool]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -62,12 +63,17 @@ class ReadFront:
     reason: str = ""
 
 
-def true_front(style: str, seed: int, long_px: int = LONG_PX) -> TrueFront:
-    """A front of a style by chance: attributes as the rules draw them, choices, width."""
+def true_front(
+    style: str, seed: int, long_px: int = LONG_PX, fixed: Mapping[str, str] | None = None
+) -> TrueFront:
+    """A front of a style by chance: attributes as the rules draw them, choices, width.
+
+    fixed: attributes that are not drawn.
+    """
     rng = np.random.default_rng([seed, len(style)])
     width = float(rng.uniform(*WIDTHS_M))
     grammar = style_grammar(style, width, _ONE)
-    state = State({**_drawn(grammar, width, seed), SCALE: 1.0}, {})
+    state = State({**_drawn(grammar, width, seed), **(fixed or {}), SCALE: 1.0}, {})
     derived = grammar.complete(state, rng)
     if derived is None:
         raise ValueError(f"{style} makes nothing of {width:.1f} m")
