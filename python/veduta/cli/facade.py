@@ -9,6 +9,9 @@ from veduta.cli.invoked import invoked
 
 SUMMARY = "Turn photos of facades into LoD3 buildings: floors, windows, balconies, roof"
 
+ALSO = ("style", "houses", "glass", "width")
+"""What of a summary has a line of its own."""
+
 if TYPE_CHECKING:
     from veduta.cli.facade_call import FacadeCall
     from veduta.facade.batch import CallResult
@@ -58,7 +61,7 @@ def _tell_results(result: CallResult) -> None:
         print(f"{name}: {summary_line(result.summaries[name])}{_state(name, result)}")
         adjusted = adjusted_line(result.summaries[name])
         summary = result.summaries[name]
-        also = wall_line(summary), summary.get("style"), summary.get("houses"), summary.get("glass")
+        also = wall_line(summary), *(summary.get(one) for one in ALSO)
         for said in filter(None, also):
             print(f"{' ' * len(name)}  {said}")
         for folder, found in beside_found(summary):

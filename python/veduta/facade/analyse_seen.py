@@ -21,6 +21,7 @@ from veduta.facade.heads import with_heads
 from veduta.facade.hidden_windows import hidden_windows
 from veduta.facade.house_folders import HOUSES_DOUBTED
 from veduta.facade.houses import HouseParameters, find_party_walls, house_spans, storey_of
+from veduta.facade.margins import width_doubt, without_margins
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.rectify import Rectified
@@ -301,7 +302,7 @@ def _read(
         document = compose(parse, front.rectified, front.source, options)
         notes = [*document.notes, *hidden_notes(front.seen, FrontParameters())]
         metres_per_px = document.scale.metres_per_px / front.evidence.px_per_rectified
-        notes += filter(None, [glass_note(front.glass, metres_per_px)])
+        notes += filter(None, [glass_note(front.glass, metres_per_px), width_doubt(document)])
         if hidden:
             notes.append(f"windows: {len(hidden)} are hidden, and taken to be as those beside them")
         return document.model_copy(update={"notes": notes})
@@ -321,7 +322,8 @@ def _sides(
         plain = whole(evidence)
     size = evidence.width, evidence.height
     moved = in_crop(elements, evidence.px_per_rectified, 0, size)
-    return sides_of(plain, evidence, seen, moved, parameters)
+    sides = sides_of(plain, evidence, seen, moved, parameters)
+    return without_margins(sides, evidence, seen, moved)
 
 
 def _storeys(

@@ -16,6 +16,7 @@ from veduta.facade.document import FacadeDocument
 from veduta.facade.glass import GLASS_TOLD
 from veduta.facade.house_folders import beside_told, houses_doubt
 from veduta.facade.load import PHOTO
+from veduta.facade.margins import WIDTH_DOUBTED
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.pipeline import Building, rebuild, reconstruct, write_building
 from veduta.facade.report import failure_report, image_report, measures
@@ -122,7 +123,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
         **_numbers(building.document),
         **({} if building.style is None else {"style": building.style.line}),
         **houses_doubt(building.document),
-        **_glass(building.document),
+        **_said(building.document),
         **count_adjusted(building.part.notes),
         **beside_told(building.document, others, numbers),
         "seconds": round(sum(step.seconds for step in steps), 3),
@@ -149,7 +150,12 @@ def _numbers(document: FacadeDocument) -> dict[str, JsonValue]:
     return {name: found[name] for name in kept}
 
 
-def _glass(document: FacadeDocument) -> dict[str, JsonValue]:
-    """What the summary says of a front of glass."""
-    said = [note for note in document.notes if note.startswith(GLASS_TOLD)]
-    return {"glass": said[0]} if said else {}
+def _said(document: FacadeDocument) -> dict[str, JsonValue]:
+    """Notes that are told at the terminal, too: of glass, and of a width in doubt."""
+    told = {"glass": GLASS_TOLD, "width": WIDTH_DOUBTED}
+    return {
+        name: note
+        for name, begins in told.items()
+        for note in document.notes
+        if note.startswith(begins)
+    }

@@ -115,6 +115,36 @@ def signs_at(
     )
 
 
+def edge_signs(
+    fronts: Fronts, x: int, *, is_left: bool, parameters: SignParameters | None = None
+) -> NDArray[np.float64] | None:
+    """The signs (6,) that need no windows: colour, lightness, lines, classes, roof, line.
+
+    Of a column between the border of the picture and the outermost window; the strip towards the
+    border may be narrow. None where it shows too little.
+    """
+    p = parameters or SignParameters()
+    unit, width = fronts.storey, fronts.evidence.width
+    strip = max(4, round(p.strip * unit))
+    left, right = slice(max(0, x - strip), x), slice(x, min(width, x + strip))
+    outer = left if is_left else right
+    if _shown(fronts, outer) < max(3.0, 0.5 * p.seen * (outer.stop - outer.start)):
+        return None
+    colour, light = _walls(fronts, left, right, p)
+    classes, _ = _classes(fronts, left, right)
+    roof = abs(float(np.median(fronts.top[left])) - float(np.median(fronts.top[right])))
+    return np.array(
+        [
+            colour / 10.0,
+            light / 10.0,
+            _unlike(fronts, left, right, p),
+            classes,
+            roof / (0.5 * unit),
+            _line(fronts, x, p),
+        ]
+    )
+
+
 def _shown(fronts: Fronts, span: slice) -> float:
     """Columns of a strip of which half and more is photo."""
     return float((fronts.evidence.valid[:, span].mean(axis=0) > 0.5).sum())
