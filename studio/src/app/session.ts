@@ -97,11 +97,18 @@ export async function openPlace(
   const arrivals = new Arrivals(tileset === null ? place.parts : [], place.start.eye, bring, onShown);
   arrivals.start();
   await town?.open((share) => onProgress(share, "tileset.json"));
-  const isFew = parts.length <= FEW_PARTS || parts.some(({ part }) => part.bounds === null);
-  await (isFew ? arrivals.tried() : arrivals.first());
-  const [firstMissing] = arrivals.missing;
-  if (firstMissing !== undefined && !parts.some(({ isThere }) => isThere)) throw firstMissing.fault;
-  const clouds = new CloudArrivals(place.clouds, address);
+  const isSized = parts.every(({ part }) => part.bounds !== null);
+  const arrived = async (): Promise<void> => {
+    await (parts.length <= FEW_PARTS || !isSized ? arrivals.tried() : arrivals.first());
+    const [firstMissing] = arrivals.missing;
+    if (firstMissing !== undefined && !parts.some(({ isThere }) => isThere)) throw firstMissing.fault;
+  };
+  if (!isSized) await arrived();
+  const showClouds = (): void => {
+    viewer?.takeClouds();
+    onShown();
+  };
+  const clouds = new CloudArrivals(place.clouds, address, showClouds);
   // Points are waited for where there is nothing else to see.
   const isCloudAlone = place.parts.length + place.walks.length === 0 && town === null;
   if (isCloudAlone) await clouds.bring((share, file) => onProgress(0.97 * share, file));
@@ -124,14 +131,16 @@ export async function openPlace(
     bringingFrom(place.start.eye),
   );
   viewer = new Viewer(canvas, place, { parts, recorded, town, clouds: clouds.group, frusta, textures, houses, budget, morphs }, store);
-  await viewer.prepare();
-  onProgress(1, "");
-  if (!isCloudAlone) {
-    void clouds.bring(() => undefined).then(() => {
-      viewer.take(null);
-      onShown();
-    });
+  viewer.warm();
+  try {
+    await arrived();
+    await viewer.prepare();
+  } catch (error) {
+    viewer.dispose();
+    throw error;
   }
+  onProgress(1, "");
+  if (!isCloudAlone) void clouds.bring(() => undefined).then(showClouds);
   return {
     place,
     get tables() {
@@ -152,6 +161,7 @@ export async function openPlace(
     askNow: () => {
       arrivals.askNow();
       recorded.askNow();
+      clouds.askNow();
       town?.askNow();
     },
     records: recordsOf(place, town !== null),

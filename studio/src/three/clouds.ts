@@ -1,7 +1,8 @@
 /** Clouds of points, in their own colours. */
 import { type BufferGeometry, Group, Points, PointsMaterial, Vector3 } from "three";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
-import { Fault, faultOf } from "../core/fault.ts";
+import { Asking, PAGE, type Surroundings } from "../core/asking.ts";
+import { Absent, Fault, faultOf } from "../core/fault.ts";
 import { drawnFromModel, worldFromDrawn } from "../core/frames.ts";
 import { type Cloud, fileAddress } from "../core/place.ts";
 import type { Layer } from "../core/state.ts";
@@ -11,37 +12,65 @@ import { fetchBytes } from "./fetch.ts";
 const MAGIC = "ply";
 const REMEDY = "Write the place again, for example with `veduta photos`.";
 
-/** The clouds of a place on their way, one after the other. One that does not come, or is broken, is left out and told. */
+/** The clouds of a place on their way, one after the other. One that does not come is asked for again; one that is broken is left out. */
 export class CloudArrivals {
   /** Those that have come. */
   readonly group = new Group();
-  readonly missing: Missing[] = [];
   readonly #clouds: readonly Cloud[];
   readonly #manifest: URL;
+  readonly #onChange: () => void;
+  readonly #asking: Asking;
+  readonly #missing = new Map<number, Fault>();
   #tried = 0;
 
-  constructor(clouds: readonly Cloud[], manifest: URL) {
+  /** `onChange` is called when one that had not come was asked for again. */
+  constructor(clouds: readonly Cloud[], manifest: URL, onChange: () => void, around: Surroundings = PAGE) {
     this.#clouds = clouds;
     this.#manifest = manifest;
+    this.#onChange = onChange;
+    this.#asking = new Asking(() => void this.#askAgain(), around);
   }
 
-  /** How many have not come yet. */
+  /** How many have not been asked for yet. */
   get waiting(): number {
     return this.#clouds.length - this.#tried;
   }
 
+  get missing(): Missing[] {
+    return [...this.#missing].map(([index, fault]) => ({ file: this.#clouds[index]?.file ?? "", fault }));
+  }
+
+  /** Does not wait for the end of a pause. */
+  askNow(): void {
+    this.#asking.now();
+  }
+
   /** To be called once; the result comes when each was asked for. */
   async bring(onProgress: (share: number, file: string) => void): Promise<void> {
-    for (const [index, cloud] of this.#clouds.entries()) {
-      const onShare = (share: number): void => onProgress((index + share) / this.#clouds.length, cloud.file);
-      const geometry = await this.#read(cloud, onShare).catch((error: unknown) => {
-        const { fault, remedy } = faultOf(error);
-        this.missing.push({ file: cloud.file, fault: new Fault(cloud.file, fault, remedy) });
-        return null;
-      });
+    for (const [index, { file }] of this.#clouds.entries()) {
+      await this.#try(index, (share) => onProgress((index + share) / this.#clouds.length, file));
       this.#tried = index + 1;
-      if (geometry !== null) this.group.add(placed(geometry, cloud));
     }
+  }
+
+  async #try(index: number, onShare: (share: number) => void): Promise<void> {
+    const cloud = this.#clouds[index];
+    if (cloud === undefined) return;
+    try {
+      this.group.add(placed(await this.#read(cloud, onShare), cloud));
+      this.#missing.delete(index);
+      this.#asking.succeeded();
+    } catch (error) {
+      const told = faultOf(error);
+      this.#missing.set(index, told instanceof Absent ? told : new Fault(cloud.file, told.fault, told.remedy));
+      // What is broken is as broken the next time.
+      if (told instanceof Absent) this.#asking.failed();
+    }
+  }
+
+  async #askAgain(): Promise<void> {
+    for (const [index, fault] of [...this.#missing]) if (fault instanceof Absent) await this.#try(index, () => undefined);
+    this.#onChange();
   }
 
   async #read(cloud: Cloud, onShare: (share: number) => void): Promise<BufferGeometry> {

@@ -138,14 +138,15 @@ export class Stage {
     return this.household.doors === null ? DEFAULT_WALK.body : INDOOR_BODY;
   }
 
-  /** The model of a part has come; null: clouds of points have. */
-  take(index: number | null, state: StudioState): void {
+  /** Clouds of points have come. */
+  takeClouds(state: StudioState): void {
+    this.photos?.hangAnew();
+    this.showLayers(state);
+  }
+
+  /** The model of a part has come. */
+  take(index: number, state: StudioState): void {
     const { parts } = this.#content;
-    if (index === null) {
-      this.photos?.hangAnew();
-      this.showLayers(state);
-      return;
-    }
     const slot = parts[index];
     if (slot === undefined) return;
     this.appearance.take(index);
@@ -221,6 +222,13 @@ export class Stage {
   update(camera: PerspectiveCamera, renderer: WebGLRenderer): boolean {
     this.#scenery.follow(camera);
     return this.#town !== null && this.#stream(this.#town, camera, renderer);
+  }
+
+  dispose(): void {
+    this.#town?.dispose();
+    this.photos?.dispose();
+    this.#content.frusta?.dispose();
+    this.#content.morphs?.dispose();
   }
 
   #showOf(place: Place, textures: PhotoTextures, onChange: () => void): PhotoShow {

@@ -42,6 +42,8 @@ const MOST_SOLIDS = 6;
 const CALM_ROUNDS = 20;
 /** Plainer tiles than with an error of so much on the screen there are not. */
 const PLAINEST_PX = 1000;
+/** The first picture is made of tiles that are so much plainer: it comes sooner, and finer ones follow at once. */
+const FIRST_PLAINER = 8;
 /** Of a tile that was dropped; what is chosen keeps its number. */
 const GONE: FeatureTable = { rows: [] };
 
@@ -118,6 +120,7 @@ export class Town implements Obstacles {
     this.#tiles.setCamera(camera);
     this.#tiles.setResolution(camera, 1280, 800);
     camera.updateMatrixWorld();
+    this.#tiles.errorTarget = FIRST_PLAINER * this.#error_px;
     for (let calm = 0; this.tileCount === 0; ) {
       calm = this.isLoading ? 0 : calm + 1;
       if (calm > CALM_ROUNDS) {
@@ -130,6 +133,7 @@ export class Town implements Obstacles {
       this.#advance();
       await pause();
     }
+    this.#tiles.errorTarget = this.#plain_px;
   }
 
   get isLoading(): boolean {

@@ -4,11 +4,12 @@ import { worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import type { Hold } from "../core/input.ts";
 import type { Place } from "../core/place.ts";
-import { type StudioState, throughPhoto } from "../core/state.ts";
+import type { StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import { add, subtract, type Vec3 } from "../core/vector.ts";
 import type { Look } from "../core/view-link.ts";
 import type { Walker } from "../core/walking.ts";
+import { chooseAt } from "./choosing.ts";
 import { DrawLoop } from "./draw-loop.ts";
 import type { Frusta } from "./frusta.ts";
 import { Follower } from "./follower.ts";
@@ -68,6 +69,8 @@ export class Viewer {
     },
   );
   #frames = 0;
+  /** Before that nothing is drawn: what is not compiled yet would hold up what is on its way. */
+  #isPrepared = false;
   #insets: Insets = NO_INSETS;
   /** Called after each picture. */
   onDrawn: () => void = () => undefined;
@@ -93,7 +96,10 @@ export class Viewer {
     this.#steering = new Steering({ camera: this.#camera, walk: this.#walk, orbit: this.#orbit, guide: this.#guide }, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
     this.#pointer = new CanvasPointer(canvas, {
-      onClick: (x, y) => this.#select(x, y),
+      onClick: (x, y) => {
+        chooseAt(x, y, this.picker, this.#stage.animals, store);
+        this.invalidate();
+      },
       onLook: (dx, dy, captured) => this.#look(dx, dy, captured),
       onCapture: (captured) => store.update({ mouseLook: captured }),
     });
@@ -105,7 +111,6 @@ export class Viewer {
     this.#stage.showLayers(store.value);
     this.#stage.light(store.value.hour);
     town?.show(store.value);
-    this.goHome();
   }
 
   /** What one meets with. */
@@ -113,12 +118,19 @@ export class Viewer {
     return this.#stage.solid;
   }
 
+  /** Compiles what is there already while the rest is on its way. */
+  warm(): void {
+    void this.#renderer.compileAsync(this.#stage.scene, this.#camera);
+  }
+
   /** Compiles and draws once, so that the first picture the person sees is whole. */
   async prepare(): Promise<void> {
+    this.goHome(); // what there is to see is known now
     await this.#town?.settle(this.#camera);
     const { morph } = this.#store.value;
     if (morph !== null) await this.#morphs?.settle(morph);
     await this.#renderer.compileAsync(this.#stage.scene, this.#camera);
+    this.#isPrepared = true;
     this.#draw();
   }
 
@@ -136,10 +148,17 @@ export class Viewer {
     return this.#stage.animals;
   }
 
-  /** The model of a part has come; null: clouds of points have. */
-  take(part: number | null): void {
+  /** The model of a part has come. */
+  take(part: number): void {
     this.#stage.take(part, this.#store.value);
     this.#walk.body = this.#stage.body;
+    this.warm();
+    this.invalidate();
+  }
+
+  /** Clouds of points have come. */
+  takeClouds(): void {
+    this.#stage.takeClouds(this.#store.value);
     this.invalidate();
   }
 
@@ -276,10 +295,7 @@ export class Viewer {
   }
 
   dispose(): void {
-    this.#town?.dispose();
-    this.#stage.photos?.dispose();
-    this.#frusta?.dispose();
-    this.#morphs?.dispose();
+    this.#stage.dispose();
     void this.headset?.leave();
     this.#loop.stop();
     this.#resizes.disconnect();
@@ -290,7 +306,7 @@ export class Viewer {
 
   /** Asks for a frame; nothing is drawn while nothing changes. */
   invalidate(): void {
-    if (this.headset?.isOn !== true) this.#loop.ask();
+    if (this.#isPrepared && this.headset?.isOn !== true) this.#loop.ask();
   }
 
   #move(seconds: number): boolean {
@@ -421,21 +437,6 @@ export class Viewer {
     const scale = captured ? -MOUSE_RAD_PX : DRAG_RAD_PX;
     this.#walk.turn(dx * scale, dy * scale);
     this.invalidate();
-  }
-
-  #select(x: number, y: number): void {
-    if (this.#store.value.morph !== null) return;
-    const { which, leading } = this.#store.value.animal;
-    const animal = leading ? this.#stage.animals.placeOf(which) : null;
-    const goal = animal === null ? null : this.picker.groundAt(x, y, animal[2]);
-    if (animal !== null) {
-      if (goal !== null) this.#stage.animals.lead(which, goal);
-      this.invalidate();
-      return;
-    }
-    const shot = this.picker.shotAt(x, y);
-    if (shot !== null) this.#store.update(throughPhoto(this.#store.value, shot));
-    else this.#store.update({ selected: this.picker.hitAt(x, y)?.feature ?? null });
   }
 
   #resize(): void {

@@ -1,28 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { Asking, pauseAfter_ms, type Surroundings } from "../../src/core/asking.ts";
-
-class Fake implements Surroundings {
-  pauses: number[] = [];
-  #then: (() => void) | null = null;
-  network: () => void = () => undefined;
-
-  after(pause_ms: number, then: () => void): () => void {
-    this.pauses.push(pause_ms);
-    this.#then = then;
-    return () => (this.#then = null);
-  }
-
-  onNetwork(then: () => void): () => void {
-    this.network = then;
-    return () => undefined;
-  }
-
-  wait(): void {
-    const then = this.#then;
-    this.#then = null;
-    then?.();
-  }
-}
+import { Asking, pauseAfter_ms } from "../../src/core/asking.ts";
+import { Fake } from "./surroundings.ts";
 
 describe("asking again", () => {
   it("waits longer each time, and a minute at most", () => {

@@ -1,7 +1,9 @@
 import { Group } from "three";
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import type { Layer } from "../../src/core/state.ts";
-import { readPoints, showClouds } from "../../src/three/clouds.ts";
+import type { Cloud } from "../../src/core/place.ts";
+import { CloudArrivals, readPoints, showClouds } from "../../src/three/clouds.ts";
+import { Fake } from "./surroundings.ts";
 
 /** Which of the clouds of these layers are seen, some layers being off. */
 function seen(layers: readonly Layer[], off: readonly Layer[]): boolean[] {
@@ -46,5 +48,49 @@ describe("clouds", () => {
     expect(seen(["points", "distances"], [])).toEqual([false, true]);
     expect(seen(["points", "distances"], ["points"])).toEqual([false, true]);
     expect(seen(["points", "distances"], ["points", "distances"])).toEqual([false, false]);
+  });
+});
+
+describe("clouds on their way", () => {
+  afterEach(() => vi.unstubAllGlobals());
+
+  const cloud: Cloud = {
+    file: "points.ply",
+    layer: "points",
+    worldFromPoints: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+    count: 3,
+    bounds: { min: [0, 0, 0], max: [1, 1, 1] },
+  };
+
+  /** Clouds of a server that answers so, one after the other; the last for all that is asked later. */
+  function arriving(answers: (() => Response)[]): { around: Fake; clouds: CloudArrivals; changes: () => number } {
+    let asked = 0;
+    vi.stubGlobal("fetch", () => {
+      asked += 1;
+      return Promise.resolve((answers[asked - 1] ?? answers.at(-1) ?? Response.error)());
+    });
+    let changes = 0;
+    const around = new Fake();
+    const clouds = new CloudArrivals([cloud], new URL("http://place/place.json"), () => (changes += 1), around);
+    return { around, clouds, changes: () => changes };
+  }
+
+  it("are asked for again where they did not come", async () => {
+    const { around, clouds, changes } = arriving([() => new Response(null, { status: 503 }), () => new Response(ply(3))]);
+    await clouds.bring(() => undefined);
+    expect(clouds.missing.map(({ file }) => file)).toEqual(["points.ply"]);
+    expect(clouds.group.children).toHaveLength(0);
+    around.wait();
+    await vi.waitFor(() => expect(changes()).toBe(1));
+    expect(clouds.missing).toEqual([]);
+    expect(clouds.group.children).toHaveLength(1);
+  });
+
+  it("are not asked for again where they are broken", async () => {
+    const { around, clouds } = arriving([() => new Response(ply(2, 3)), () => new Response(ply(3))]);
+    await clouds.bring(() => undefined);
+    expect(around.pauses).toEqual([]);
+    expect(clouds.missing[0]?.fault.message).toContain("cut short");
+    expect(clouds.waiting).toBe(0);
   });
 });
