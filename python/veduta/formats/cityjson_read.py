@@ -88,7 +88,7 @@ def read_cityjson(path: Path, *, installations: bool = False) -> CityFile:
             if corners > MOST_CORNERS:
                 raise InputError(path, f"has more than {MOST_CORNERS:,} corners", "Cut it.")
             buildings.append(building)
-    return CityFile(tuple(buildings), _epsg(head), left=tuple(left))
+    return CityFile(tuple(buildings), epsg_of(head), left=tuple(left))
 
 
 def _with_first(head: dict[str, Any], rest: Iterator[Any]) -> Iterator[dict[str, Any]]:
@@ -123,8 +123,8 @@ def _refuse(word: str) -> NoReturn:
     raise ValueError(f"{word} is no number of JSON")
 
 
-def _epsg(head: dict[str, Any]) -> int | None:
-    """The code in `metadata.referenceSystem`: a URL, or a URN in version 1.0."""
+def epsg_of(head: dict[str, Any]) -> int | None:
+    """The code in `metadata.referenceSystem`: a URL, or a URN in version 1.0; None without one."""
     metadata = head.get("metadata")
     name = metadata.get("referenceSystem") if isinstance(metadata, dict) else None
     code = re.search(r"EPSG[:/]+(?:[\d.]*[:/]+)?(\d{4,6})$", str(name)[:200])

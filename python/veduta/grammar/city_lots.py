@@ -8,7 +8,6 @@ the file has roads, and else the longest.
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from veduta.formats.cityjson_read import epsg_of
 from veduta.geometry.polygon import signed_area
 from veduta.grammar.outline import Attribute, Found, Outline, Outlines, plain_attributes
 from veduta.grammar.rings import MAX_VERTICES, RingFault
@@ -32,17 +32,9 @@ MIN_FRONT_M = 2.0
 Loop = NDArray[np.int64]
 
 
-def city_epsg(document: dict[str, Any]) -> int | None:
-    """The EPSG code of the file's reference system; None where there is none."""
-    metadata = document.get("metadata")
-    name = metadata.get("referenceSystem") if isinstance(metadata, dict) else None
-    code = re.search(r"EPSG[:/]+[\d.]*[:/](\d{4,6})$", str(name)[:200])
-    return int(code[1]) if code else None
-
-
 def city_outlines(path: Path, document: dict[str, Any], found: Found) -> Outlines:
     """The lots of all buildings; what was wrong with those that give none goes to `found`."""
-    found.epsg = city_epsg(document)
+    found.epsg = epsg_of(document)
     points = vertices_of(path, document)
     objects = document.get("CityObjects")
     if not isinstance(objects, dict):

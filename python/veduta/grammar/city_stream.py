@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from veduta.formats.cityjson_read import epsg_of
 from veduta.grammar.city_lots import (
     ROADS,
     building_outlines,
-    city_epsg,
     road_corners,
     road_rings,
     vertices_of,
@@ -56,7 +56,7 @@ def large_city_outlines(path: Path, found: Found, folder: Path | None) -> Outlin
     """The lots of all buildings of a document; `folder` has room for its vertices."""
     with tempfile.TemporaryFile(dir=folder) as room:
         points, rings, document = _surveyed(path, room)
-        found.epsg = city_epsg(document)
+        found.epsg = epsg_of(document)
         roads = road_corners(points[np.unique(np.concatenate(rings))] if rings else None)
         for name, one in _objects(path):
             subject = f"{path}: {name}"
@@ -132,7 +132,7 @@ def _members(stream: JsonStream) -> Iterator[tuple[str, Any]]:
 def sequence_outlines(path: Path, found: Found) -> Outlines:
     """The lots of all buildings of a sequence; a line that cannot be read is a failure."""
     first, roads = _header_and_roads(path)
-    found.epsg = city_epsg(first)
+    found.epsg = epsg_of(first)
     for number, feature in _features(path):
         subject = f"{path}: line {number}"
         if isinstance(feature, Broken):

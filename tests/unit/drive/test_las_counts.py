@@ -74,3 +74,19 @@ def test_a_head_that_is_cut_is_named(tmp_path: Path) -> None:
     path.write_bytes(path.read_bytes()[:60])
     with pytest.raises(InputError, match="is no LAS that can be read"):
         read_las(path)
+
+
+def test_a_day_that_no_calendar_has_is_named(tmp_path: Path) -> None:
+    path = scan(tmp_path / "scan.las")
+    change(path, 90, "<I", 60000 + (9999 << 16))
+    with pytest.raises(InputError, match="is no LAS that can be read"):
+        read_las(path)
+
+
+def test_a_version_whose_head_is_longer_is_named(tmp_path: Path) -> None:
+    """The fields of 1.5 would lie behind the end of this file."""
+    path = scan(tmp_path / "scan.las")
+    path.write_bytes(path.read_bytes()[:375])
+    change(path, 24, "<H", 1 + (5 << 8))
+    with pytest.raises(InputError, match="is no LAS that can be read"):
+        read_las(path)

@@ -20,6 +20,8 @@ _HEAD = struct.Struct("<25x B 68x H I I x")
 _LATE = struct.Struct("<138x I")
 """From there on to the number of records behind the points (1.4)."""
 _RECORD_BYTES, _LATE_RECORD_BYTES = 54, 60
+_BROKEN = (OSError, ValueError, OverflowError, struct.error)
+"""Of heads that end too early, and of days that no calendar has (laspy 2)."""
 _LIMITS = Limits(memory_mb=3000, seconds=120)
 """The largest one takes half of this."""
 
@@ -39,7 +41,7 @@ def _points(path: Path) -> NDArray[np.float64]:
         with laspy.open(path) as file:
             _require_points(path, file.header.point_count, file.header.point_format.size)
             points = file.read()
-    except (laspy.errors.LaspyException, lazrs.LazrsError, OSError, ValueError) as error:
+    except (laspy.errors.LaspyException, lazrs.LazrsError, *_BROKEN) as error:
         raise InputError(path, "is no LAS that can be read", "Copy it again.") from error
     if not len(points.points):
         raise InputError(path, "has no points", "Remove it.")
