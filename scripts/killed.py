@@ -30,6 +30,7 @@ from same_bytes import compared, hashes
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from record import Value, record
+from record import commit as commit_now
 
 USUAL = (
     "facade-one", "grammar-three", "grammar-tiled", "plan-document", "photos-corner", "carve-ball",
@@ -39,6 +40,8 @@ USUAL = (
 
 TRIES = 4
 """How often a call is begun that is done before it is killed."""
+COMMIT = "commit"
+"""Beside the kills of a call: what it was tried on."""
 FAILS = "fails"
 """A call that ends badly without being killed."""
 
@@ -73,7 +76,9 @@ class Tried:
 
     def add(self, call: Call, number: int, word: str) -> None:
         """Keep what came of one."""
-        self.known.setdefault(call.name, {})[str(number)] = word
+        self.known.setdefault(call.name, {}).update(
+            {str(number): word, COMMIT: str(commit_now()["commit"])}
+        )
         if self.file is not None:
             self.file.write_text(json.dumps(self.known, indent=1))
 
@@ -156,6 +161,7 @@ def _keep(calls: list[Call], tried: Tried, times: int) -> None:
             "killed": times - tried.count(call, "done"),
             "of": times,
             "left something else": tried.count(call, "bad"),
+            "commit": tried.known.get(call.name, {}).get(COMMIT, ""),
         }
         for call in calls
     ]

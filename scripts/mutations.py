@@ -78,6 +78,7 @@ def _measured_apart(kind: str, cases: int, path: Path) -> None:
 def measure(kind: str, cases: int, path: Path) -> None:
     """Read so many files of a kind; the row of the table goes to `path`."""
     from faulty_inputs import CLASSES, mutated
+    from record import commit
 
     from veduta.run import limits
     from veduta.run.errors import InputError, NotFoundError
@@ -105,7 +106,8 @@ def measure(kind: str, cases: int, path: Path) -> None:
             if number % 50 == 0:
                 most_beside = max(most_beside, _reader_mb(limits))
         row = {
-            "kind": kind, "files": cases, "read": fine, "refused": refused, "tracebacks": failed,
+            "kind": kind, "commit": commit()["commit"], "files": cases,
+            "read": fine, "refused": refused, "tracebacks": failed,
             "MB": round(_peak_mb(None) - before, 1),
             "MB of limits": round(max(most_beside, _reader_mb(limits)) - beside, 1),
             "ms a file": round(1000.0 * (time.perf_counter() - started) / cases, 2),

@@ -29,7 +29,7 @@ from byte_inputs import write_inputs
 from same_bytes import compared, hashes
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
-from record import Value, record
+from record import Value, commit, record
 
 USUAL = (
     "facade-one", "grammar-three", "plan-document", "photos-corner", "carve-ball", "dense-wall",
@@ -69,7 +69,7 @@ def main() -> int:
 def tried(call: Call, work: Path) -> dict[str, Value]:
     """What came of a call: a word for each way, `right` or what was wrong."""
     verb = call.words[0]
-    told: dict[str, Value] = {"call": call.name}
+    told: dict[str, Value] = {"call": call.name, "commit": commit()["commit"]}
     told["reader gone"] = _judged(_into_nobody(_words(call, "whole"), work), (0,))
     told["/dev/full"] = _judged(_into_full(_words(call, "whole"), work), (2,))
     help_codes = [_into_nobody([verb, "--help"], work), _into_full([verb, "--help"], work)]
