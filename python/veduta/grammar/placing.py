@@ -20,6 +20,7 @@ from veduta.grammar.levels import BOXES_ERROR_M
 from veduta.grammar.lots import Lots
 from veduta.grammar.report import Whole
 from veduta.grammar.squares import Square
+from veduta.grammar.town import BOXES
 from veduta.place.manifest import IDENTITY, Bounds, PlacePart, Start
 from veduta.place.place import Place
 
@@ -64,8 +65,10 @@ def town_of(
         if grid is not None and ground is not None:
             local[:] = np.linalg.solve(ground, _on_earth(grid, lots, own))
         low, high = (tuple(corner) for corner in summary["box"])
-        content = f"{name}/tiles/tileset.json"
-        tiles.append(Tile((low, high), BOXES_ERROR_M, content, (), local, own))
+        # A block is seen from afar before its own tree is asked for.
+        inside = Tile((low, high), BOXES_ERROR_M, f"{name}/tiles/tileset.json")
+        afar = f"{name}/tiles/{BOXES}"
+        tiles.append(Tile((low, high), BOXES_ERROR_M, afar, (inside,), local, own))
         boxes.append(_moved((low, high), local))
         if name in grounds:
             around = grounds[name].box

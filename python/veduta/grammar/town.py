@@ -40,7 +40,8 @@ MAPPED = (FULL, PLAIN)
 TO_OUT = "../../.."
 """From the folder of a block's tiles."""
 Vector = tuple[float, float, float]
-TILESET = "tileset.json"
+TILESET, BOXES = "tileset.json", "boxes.glb"
+"""The tree of a block, and what stands for the block where it is seen from afar."""
 
 
 @dataclass(frozen=True)
@@ -102,9 +103,9 @@ class Town:
             return None
         rows = [BuildingRow(one.lot.id, one.lot.name) for one in self.built]
         boxes = [_plain_box(one) for one in self.built]
-        write_bytes(self.folder / "boxes.glb", boxes_glb(boxes, rows, _mean_colour(self.built)))
+        write_bytes(self.folder / BOXES, boxes_glb(boxes, rows, _mean_colour(self.built)))
         box = union([*(tile.box for tile in self.tiles), _box_of(boxes)])
-        root = Tile(box, BOXES_ERROR_M, "boxes.glb", tuple(self.tiles))
+        root = Tile(box, BOXES_ERROR_M, None, tuple(self.tiles))
         write_tileset(root, self.folder / TILESET)
         return root
 

@@ -103,7 +103,7 @@ def test_every_building_is_in_each_level_once(town: Path) -> None:
         uri = tile.get("content", {}).get("uri", "")
         if uri.endswith(".glb"):
             tables = glb_document(town / base / uri)["extensions"]["EXT_structural_metadata"]
-            level = uri.rpartition("-")[2]
+            level = uri.rpartition("/")[2].rpartition("-")[2]
             counts[level] = counts.get(level, 0) + tables["propertyTables"][1]["count"]
     assert counts == dict.fromkeys(["boxes.glb", "volume.glb", "plain.glb", "full.glb"], 150)
 
@@ -152,6 +152,8 @@ def test_a_few_lots_at_different_heights_have_ground_between_them(tmp_path: Path
     assert result.exit_code == 0
     children = json.loads((out / "tileset.json").read_text())["root"]["children"]
     shown = {child["content"]["uri"] for child in children}
-    assert shown == {"parts/00/tiles/tileset.json", "ground/00.glb"}
+    assert shown == {"parts/00/tiles/boxes.glb", "ground/00.glb"}
+    inner = [one["content"]["uri"] for child in children for one in child.get("children", [])]
+    assert inner == ["parts/00/tiles/tileset.json"]
     assert (out / "ground/00.glb").stat().st_size > 0
     assert any("invented" in note for note in result.notes)
