@@ -56,11 +56,19 @@ def test_a_house_at_a_corner_has_windows_on_both_streets(style: str) -> None:
     assert corner["west"] == row["west"] == 0
 
 
-@pytest.mark.parametrize(("style", "given"), [("haussmann", {}), ("restauration", {})])
+SHOPS: list[tuple[str, dict[str, Attribute]]] = [
+    ("haussmann", {"withShops": True}),
+    ("restauration", {"withShops": True}),
+    ("louis-xiii", {"arcade": True}),
+    ("empire", {"arcade": True}),
+]
+
+
+@pytest.mark.parametrize(("style", "given"), SHOPS)
 def test_one_sees_into_shops(style: str, given: dict[str, Attribute]) -> None:
     """Behind each front is a room, and what is before it is no wall but a clear pane."""
     lot = [ring((0, 0), (16, 0), (16, 12), (0, 12))]
-    (part,) = derive(style, [lot], withShops=True, LOD=2.0, **given)
+    (part,) = derive(style, [lot], LOD=2.0, **given)
     assert part.instances is not None
     names = {mesh.name.split("@")[0] for mesh in part.instances.meshes}
     assert names & {"builtin/shop-shelves", "builtin/shop-counter"}
@@ -69,7 +77,7 @@ def test_one_sees_into_shops(style: str, given: dict[str, Attribute]) -> None:
     assert panes.any()
     features = {part.features.semantic(row).value for row in part.polygon_feature[panes].tolist()}
     assert features == {"shop"}
-    (flat,) = derive(style, [lot], withShops=True, LOD=1.5, **given)
+    (flat,) = derive(style, [lot], LOD=1.5, **given)
     assert all(one.opacity == 1.0 for one in flat.materials)
 
 
