@@ -141,6 +141,7 @@ bench: setup ## speed, memory and accuracy tables; dated results go to benchmark
 
 pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/pictures.py
+	$(PY) docs/facade_picture.py
 	$(PY) docs/grammar_picture.py
 	$(PY) docs/assets_picture.py
 	$(PY) docs/textures_picture.py
