@@ -42,12 +42,7 @@ def kept_reader(
 ) -> Callable[[], Arrays]:
     """What reads arrays from disk; they are made now where they are not there."""
     work.kept(name, inputs, make, _save, _nothing)
-    # Not `make`: what that was made of would stay in memory with it.
-    return lambda: work.kept(name, inputs, _gone, _save, _mapped)
-
-
-def _gone() -> Arrays:
-    raise FileNotFoundError("a depth map that was kept is no longer there")
+    return lambda: work.kept_again(name, inputs, _mapped)
 
 
 def _save(arrays: Arrays, folder: Path) -> None:

@@ -112,11 +112,13 @@ def _make(
         step.rejected += [f"{one.id}: {one.reason}" for one in segments if one.fate == "leave-out"]
     layered = layer_segments(record, segments, options, road_m, inputs, work)
     outcomes = texture_segments(record, layered, options, inputs, work)
+    corrected = _corrections(record)
     with work.step("place"):
         told = {one.segment.id: one.segment for one in layered}
         known = [told.get(one.id, one) for one in segments]
-        _write(log, record, known, outcomes, line, road_m, options, work)
-    _tell_path(record, known, line, work)
+        corrections = [one for _, one in corrected]
+        _write(log, record, known, corrections, outcomes, line, road_m, options, work)
+    _tell_path(record, known, corrected, line, work)
     _tell(record, outcomes, line, work)
 
 
@@ -124,6 +126,7 @@ def _write(
     log: Path,
     record: DriveRecord,
     segments: Sequence[DriveSegment],
+    corrections: Sequence[Correction],
     outcomes: Sequence[Outcome],
     line: NDArray[np.float64],
     road_m: float,
@@ -148,7 +151,7 @@ def _write(
             )
             for sweep in record.sweeps
         ],
-        corrections=_corrections(record),
+        corrections=list(corrections),
         segments=list(segments),
         notes=list(record.notes),
     )
@@ -225,38 +228,39 @@ def _bodies(record: DriveRecord, outcomes: Sequence[Outcome], path: Path, work: 
     return [one for one in bodies if one.name not in left_out]
 
 
-def _corrections(record: DriveRecord) -> list[Correction]:
-    """Each by the scan that was taken next to its time."""
+def _corrections(record: DriveRecord) -> list[tuple[int, Correction]]:
+    """Each with the row of the scan that was taken next to its time."""
     times = np.array([sweep.time_s for sweep in record.sweeps])
     found = []
     for time_s, moved, why in record.corrections:
-        sweep = record.sweeps[int(np.argmin(np.abs(times - time_s)))].name
+        row = int(np.argmin(np.abs(times - time_s)))
         x, y, z = (round(float(value), 3) for value in moved)
-        found.append(Correction(sweep=sweep, moved_m=(x, y, z), reason=why))
+        name = record.sweeps[row].name
+        found.append((row, Correction(sweep=name, moved_m=(x, y, z), reason=why)))
     return found
 
 
 def _tell_path(
-    record: DriveRecord, segments: Sequence[DriveSegment], line: NDArray[np.float64], work: Work
+    record: DriveRecord,
+    segments: Sequence[DriveSegment],
+    corrected: Sequence[tuple[int, Correction]],
+    line: NDArray[np.float64],
+    work: Work,
 ) -> None:
-    """The path over the surface model, and what was corrected of it."""
+    """The path over the surface model, and what was corrected of it: scans by their rows."""
     if record.overview is not None:
         near = line[:, :2].min(axis=0) - MARGIN_M, line[:, :2].max(axis=0) + MARGIN_M
         low, high = ((float(corner[0]), float(corner[1])) for corner in near)
-        times = np.array([sweep.time_s for sweep in record.sweeps])
         places = record.path()
-        moved = [
-            (places[int(np.argmin(np.abs(times - time_s)))], by)
-            for time_s, by, _ in record.corrections
-        ]
+        moved = [(places[row], np.array(one.moved_m)) for row, one in corrected]
         work.picture(
             "The path over the surface model",
             "Path white, from the blue dot; segments beside it, on the side they look to: built"
             " green, left as scanned orange, left out grey; corrections red, ten times as long",
             path_picture(record.overview(low, high), line, segments, moved), wide=True,
         )  # fmt: skip
-    if record.corrections:
-        work.table(corrections_table(_corrections(record)))
+    if corrected:
+        work.table(corrections_table([one for _, one in corrected]))
 
 
 def _tell(

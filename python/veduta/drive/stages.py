@@ -11,7 +11,7 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
-from typing import NoReturn, TypeVar
+from typing import TypeVar
 
 from pydantic import JsonValue
 
@@ -32,7 +32,7 @@ from veduta.drive.document.model import DriveSegment
 from veduta.drive.kept import load_result, save_result
 from veduta.drive.options import DriveOptions
 from veduta.drive.record import DriveRecord
-from veduta.run.errors import InputError, NotFoundError
+from veduta.run.errors import NotFoundError
 from veduta.run.threads import available_cores
 from veduta.run.work import Work
 
@@ -159,23 +159,26 @@ def texture_segments(
     images = NearImages(record.shots, [(one.segment, one.around) for one in layered])
     shares = dict.fromkeys(range(len(layered)), 0.0)
 
-    def kept(number: int, make: Callable[[], Textured]) -> Textured:
-        one = layered[number]
-        found: Textured = work.kept(
-            f"texture-{one.segment.id}", _inputs(one.segment, options, digests), make,
-            save_result, lambda folder: load_result(Textured, folder),
-        )  # fmt: skip
-        return found
+    def place_of(number: int) -> tuple[str, JsonValue]:
+        segment = layered[number].segment
+        return f"texture-{segment.id}", _inputs(segment, options, digests)
+
+    load = partial(load_result, Textured)
 
     def made_of(number: int, seen: list[Seen]) -> Textured:
         def told(share: float) -> None:
             shares[number] = share
 
-        return kept(number, lambda: texture(layered[number].load(), seen, options, told))
+        def make() -> Textured:
+            return texture(layered[number].load(), seen, options, told)
+
+        found: Textured = work.kept(*place_of(number), make, save_result, load)
+        return found
 
     def again(number: int) -> Textured:
         """From disk alone: the images that it was made of are not in memory any more."""
-        return kept(number, lambda: _gone(layered[number].segment.id, work))
+        found: Textured = work.kept_again(*place_of(number), load)
+        return found
 
     def idle() -> None:
         work.progress("texture", sum(shares.values()) / len(layered))
@@ -193,11 +196,6 @@ def texture_segments(
             step.counts[f"{layered[number].segment.id}: triangles"] = len(made.surface.triangles)
         step.counts["images"] = images.looked
     return found
-
-
-def _gone(segment: str, work: Work) -> NoReturn:
-    fault = f"has lost the texture of {segment} while it was in use"
-    raise InputError(work.stages, fault, "Leave the folder alone and call again.")
 
 
 def _inputs(segment: DriveSegment, options: DriveOptions, digests: JsonValue) -> JsonValue:

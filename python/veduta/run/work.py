@@ -18,6 +18,7 @@ from pydantic import JsonValue
 
 from veduta.run.atomic import atomic_folder
 from veduta.run.digests import result_key
+from veduta.run.errors import InputError
 from veduta.run.options import Options
 from veduta.run.outputs import writing_to
 from veduta.run.page import Bars, Picture, Table
@@ -110,14 +111,28 @@ class Work:
         inputs: all that it depends on besides the version: digests, options of the step.
         save, load: write it to a folder, and read it from there.
         """
-        key = result_key(name, self.version, Options(), [self.command, inputs])
-        place = self.stages / f"{name}-{key[:24]}"
+        place = self._place(name, inputs)
         if place.is_dir():
             return load(place)
         result = make()
         with writing_to(self.folder), atomic_folder(place) as folder:
             save(result, folder)
         return result
+
+    def kept_again(self, name: str, inputs: JsonValue, load: Callable[[Path], T]) -> T:
+        """The same from disk alone, once it was made: what it was made of need not stay in memory.
+
+        InputError where it is no longer there.
+        """
+        place = self._place(name, inputs)
+        if not place.is_dir():
+            fault = f"has lost {name} while it was in use"
+            raise InputError(self.stages, fault, "Leave the folder alone and call again.")
+        return load(place)
+
+    def _place(self, name: str, inputs: JsonValue) -> Path:
+        key = result_key(name, self.version, Options(), [self.command, inputs])
+        return self.stages / f"{name}-{key[:24]}"
 
     def kept_arrays(
         self, name: str, inputs: JsonValue, make: Callable[[], dict[str, NDArray[Any]]]

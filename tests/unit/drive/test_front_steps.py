@@ -52,6 +52,15 @@ def test_a_ramp_between_two_fronts_becomes_a_step() -> None:
     assert off.mean() < np.abs(main - np.where(np.arange(80) < 40, *FRONTS_M)).mean()
 
 
+def test_columns_without_a_wall_stay_without_beside_a_step() -> None:
+    points = _points(40, 80, 4)
+    main = np.where(np.arange(80) < 40, *FRONTS_M).astype(np.float64)
+    unknown = [36, 37, 43]
+    main[unknown] = np.nan
+    found = sharpened(main, points, points.height.astype(np.float32), SPACING_M)
+    np.testing.assert_array_equal(np.flatnonzero(np.isnan(found)), unknown)
+
+
 def test_one_front_stays_as_it_is() -> None:
     points = _points(80, 80, 3)
     main = 10.0 + 0.1 * np.sin(np.arange(80) / 5.0)

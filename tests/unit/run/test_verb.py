@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -119,6 +120,27 @@ def test_a_killed_run_goes_on_from_what_was_kept(tmp_path: Path) -> None:
     assert made == ["first", "second"]
     assert result.measures == {"total": 9}
     assert not (out / ".veduta/carve").exists()
+
+
+def test_what_was_kept_is_read_again_and_missed_where_it_is_gone(tmp_path: Path) -> None:
+    def reads_again(work: Work) -> None:
+        made = work.kept("one", [1], lambda: "some", _write_text, _read_text)
+        assert work.kept_again("one", [1], _read_text) == made
+        shutil.rmtree(work.stages)
+        work.kept_again("one", [1], _read_text)
+
+    with pytest.raises(InputError) as told:
+        _run(tmp_path / "out", reads_again)
+    assert "has lost one while it was in use" in str(told.value)
+    assert "call again" in str(told.value)
+
+
+def _write_text(text: str, folder: Path) -> None:
+    (folder / "text").write_text(text)
+
+
+def _read_text(folder: Path) -> str:
+    return (folder / "text").read_text()
 
 
 def test_an_edited_file_is_left_and_named(tmp_path: Path) -> None:

@@ -40,6 +40,7 @@ def sharpened(
     parameters: StepParameters | None = None,
 ) -> Floats:
     """(c,) the main depth with each change between two fronts in one column, where the points say.
+    Columns without one (NaN) stay so.
 
     above: (n,) heights of the points over the ground (m).
     """
@@ -75,10 +76,10 @@ def sharpened(
 
 
 def _of_front(given: Floats, depth: float, chosen: StepParameters) -> Floats:
-    """What lies near a front stays; the rest of a part is put on it."""
+    """What lies near a front stays, and so do columns without a wall; the rest is put on it."""
     with np.errstate(invalid="ignore"):
-        own = np.abs(given - depth) < chosen.least_m
-    return np.where(own, given, depth)
+        other = np.abs(given - depth) >= chosen.least_m
+    return np.where(other, depth, given)
 
 
 def _level(values: Floats) -> float:

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta._core import walk_rasterise
 from veduta.drive.build.frame import ColumnFrame
 from veduta.drive.build.raw import UNSEEN
 from veduta.drive.build.segment import Textured
 from veduta.place.mesh import Mesh
 
 Floats = NDArray[np.float64]
+Carried = NDArray[np.float32]
 _EMPTY = (226, 229, 231)
 _WIDEST_PX, _MOST_PX_M = 1500, 28.0
 _SLANT = (0.30, 0.22)
 """Metres that one metre of depth moves to the side and up in the picture."""
 _LIGHT = np.array([0.35, -0.55, 0.75]) / np.linalg.norm([0.35, -0.55, 0.75])
 """Along, outward and up; the sun stands behind whoever looks."""
-_FINEST = 192
+_EYE_M = 1000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,19 +64,24 @@ def before_after(
     if not len(surface.triangles):
         return None
     screen = _screen(textured)
-    height, width = atlas.seen.shape
-    uv = np.asarray(atlas.uv(surface.pixel), dtype=np.float64)
-    at = np.clip((uv * [width, height]).astype(np.int64), 0, [width - 1, height - 1])
-    colours = textured.pixels[at[:, 1], at[:, 0]]
-    unseen = (textured.plain & atlas.surface)[at[:, 1], at[:, 0]]
-    colours = np.where(unseen[:, None], np.array(UNSEEN, dtype=np.uint8), colours)
-    made = (surface.vertices, surface.triangles, colours)
-    after = _drawn(screen, [made], uv, textured)
-    pieces = [
-        (mesh.positions_m.astype(np.float64) + middle, mesh.triangles.astype(np.int64), mesh.colours)
-        for mesh in raw if mesh.colours is not None
-    ]  # fmt: skip
-    return _drawn(screen, pieces, None, textured), after
+    uv = np.asarray(atlas.uv(surface.pixel), dtype=np.float32)
+    after = _drawn(screen, surface.vertices, surface.triangles, uv, partial(_texels, textured))
+    before = _drawn(screen, *_joined(raw, middle), lambda colours: colours)
+    return before, after
+
+
+def _joined(meshes: Sequence[Mesh], middle: Floats) -> tuple[Floats, NDArray[np.int64], Carried]:
+    """Vertices (v, 3) (m, world), triangles (t, 3) and colours (v, 3) of all that have colours."""
+    vertices, triangles, colours = [np.zeros((0, 3))], [np.zeros((0, 3), np.int64)], []
+    count = 0
+    for mesh in meshes:
+        if mesh.colours is not None:
+            vertices.append(mesh.positions_m.astype(np.float64) + middle)
+            triangles.append(mesh.triangles.astype(np.int64) + count)
+            colours.append(mesh.colours.astype(np.float32))
+            count += len(mesh.positions_m)
+    told = np.concatenate(colours) if colours else np.zeros((0, 3), np.float32)
+    return np.concatenate(vertices), np.concatenate(triangles), told
 
 
 def _screen(textured: Textured) -> _Screen:
@@ -86,42 +96,35 @@ def _screen(textured: Textured) -> _Screen:
 
 def _drawn(
     screen: _Screen,
-    pieces: list[tuple[Floats, NDArray[np.int64], NDArray[np.uint8]]],
-    uv: Floats | None,
-    textured: Textured,
+    vertices: Floats,
+    triangles: NDArray[np.integer],
+    carried: Carried,
+    colour: Callable[[Carried], NDArray[Any]],
 ) -> NDArray[np.uint8]:
-    """Dots close enough to cover each triangle, the nearest on top."""
-    picture = np.full((*screen.shape, 3), _EMPTY, dtype=np.uint8)
-    nearest = np.full(screen.shape, np.inf)
-    for vertices, triangles, colours in pieces:
-        local = screen.local(vertices)
-        corners = screen.flat(local)[triangles] * screen.px_m
-        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-        fine = np.clip(np.ceil(1.5 * edges), 1, _FINEST).astype(np.int64)
-        for level in np.unique(fine).tolist():
-            own = triangles[fine == level]
-            weights = _weights(level)
-            places = np.einsum("kc,tcx->tkx", weights, local[own]).reshape(-1, 3)
-            shade = _shades(local, own)
-            if uv is None:
-                shown = np.einsum("kc,tcx->tkx", weights, colours[own].astype(np.float64))
-            else:
-                shown = _texels(np.einsum("kc,tcx->tkx", weights, uv[own]), textured)
-            grey = (np.abs(shown - np.array(UNSEEN)).max(axis=2, keepdims=True) < 3.0)
-            shown = np.where(grey, shown * shade[:, None, None], shown)
-            _dots(screen, picture, nearest, places, shown.reshape(-1, 3))
+    """The nearest triangle of each pixel. carried: (v, k) what vertices have; colour: what pixels
+    that have it (n, k) look like, (n, 3).
+    """
+    height, width = screen.shape
+    picture = np.full((height, width, 3), _EMPTY, dtype=np.uint8)
+    if not len(triangles):
+        return picture
+    local = screen.local(vertices)
+    flat = (screen.flat(local) - screen.low) * screen.px_m
+    # Seen from so far that lines of sight are parallel.
+    away = local[:, 1] - local[:, 1].min() + _EYE_M
+    at = np.column_stack([flat[:, 0], height - flat[:, 1], away]).astype(np.float32)
+    _, values, which = walk_rasterise(
+        at, carried, triangles.astype(np.uint32), width, height, near=0.0
+    )
+    there = which >= 0
+    shown = colour(values[there.ravel()]).astype(np.float64)
+    unseen = np.abs(shown - np.array(UNSEEN)).max(axis=1) < 3.0
+    shown[unseen] *= _shades(local, triangles)[which[there]][unseen, None]
+    picture[there] = np.clip(shown, 0, 255)
     return picture
 
 
-def _weights(level: int) -> Floats:
-    """(k, 3) places in a triangle."""
-    one, two = np.meshgrid(np.arange(level), np.arange(level), indexing="ij")
-    kept = (one + two) < level
-    first, second = (one[kept] + 1 / 3) / level, (two[kept] + 1 / 3) / level
-    return np.stack([first, second, 1.0 - first - second], axis=1)
-
-
-def _shades(local: Floats, triangles: NDArray[np.int64]) -> Floats:
+def _shades(local: Floats, triangles: NDArray[np.integer]) -> Floats:
     """(t,) how light each triangle is; it has no backs."""
     a, b, c = (local[triangles[:, corner]] for corner in range(3))
     normal = np.cross(b - a, c - a)
@@ -129,30 +132,10 @@ def _shades(local: Floats, triangles: NDArray[np.int64]) -> Floats:
     return np.asarray(0.55 + 0.6 * np.abs(normal @ _LIGHT), dtype=np.float64)
 
 
-def _texels(uv: Floats, textured: Textured) -> Floats:
-    """(t, k, 3) what the atlas shows there."""
+def _texels(textured: Textured, uv: Carried) -> NDArray[np.uint8]:
+    """(n, 3) what the atlas shows there."""
     height, width = textured.atlas.seen.shape
     at = np.clip((uv * [width, height]).astype(np.int64), 0, [width - 1, height - 1])
-    x, y = at[..., 0], at[..., 1]
-    plain = textured.plain[y, x]
-    return np.where(plain[..., None], np.array(UNSEEN), textured.pixels[y, x]).astype(np.float64)
-
-
-def _dots(
-    screen: _Screen,
-    picture: NDArray[np.uint8],
-    nearest: NDArray[np.float64],
-    places: Floats,
-    colours: Floats,
-) -> None:
-    flat = (screen.flat(places) - screen.low) * screen.px_m
-    x, y = flat[:, 0].astype(np.int64), screen.shape[0] - 1 - flat[:, 1].astype(np.int64)
-    inside = (flat >= 0).all(axis=1) & (x < screen.shape[1]) & (y >= 0) & (y < screen.shape[0])
-    cell, depth = (y * screen.shape[1] + x)[inside], places[inside, 1]
-    order = np.lexsort((depth, cell))
-    cell, first = np.unique(cell[order], return_index=True)
-    row = order[first]
-    better = depth[row] < nearest.ravel()[cell]
-    nearest.ravel()[cell[better]] = depth[row[better]]
-    shown = np.clip(colours[inside][row[better]], 0, 255).astype(np.uint8)
-    picture.reshape(-1, 3)[cell[better]] = shown
+    plain = textured.plain[at[:, 1], at[:, 0], None]
+    shown = np.where(plain, np.array(UNSEEN, np.uint8), textured.pixels[at[:, 1], at[:, 0]])
+    return np.asarray(shown, dtype=np.uint8)
