@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.gltf_bin import GltfBin, y_up
+from veduta.geometry.quaternions import quaternions_of, rotations_of
 from veduta.place.instances import (
     InstanceGroup,
     Instances,
@@ -121,14 +122,12 @@ def gltf_placement(
     part_from_mesh: NDArray[np.float64],
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
     """(n, 3) moves, (n, 4) turns as quaternions (x, y, z, w) and (n, 3) stretches, y up."""
-    from scipy.spatial.transform import Rotation  # here: most calls need none, and it is slow
-
     turn, stretch = turn_and_stretch(part_from_mesh)
     turned = GLTF_FROM_PART @ turn @ GLTF_FROM_PART.T
     move = y_up(part_from_mesh[:, :, 3].astype(np.float32))
     return (
         move,
-        Rotation.from_matrix(turned).as_quat(canonical=True).astype(np.float32),
+        quaternions_of(turned).astype(np.float32),
         stretch[:, [0, 2, 1]].astype(np.float32),
     )
 
@@ -137,9 +136,7 @@ def part_placement(
     move: NDArray[np.float32], turn: NDArray[np.float32], stretch: NDArray[np.float32]
 ) -> NDArray[np.float64]:
     """(n, 3, 4) the way back from `gltf_placement`."""
-    from scipy.spatial.transform import Rotation  # here: most calls need none, and it is slow
-
-    turned = Rotation.from_quat(turn.astype(np.float64)).as_matrix()
+    turned = rotations_of(turn)
     back = GLTF_FROM_PART.T
     matrix = back @ (turned * stretch[:, None, :].astype(np.float64)) @ GLTF_FROM_PART
     at = move.astype(np.float64) @ GLTF_FROM_PART

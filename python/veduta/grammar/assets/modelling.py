@@ -237,10 +237,8 @@ def _mitres(track: Points, *, closed: bool) -> Points:
 
 def _volume(points: Points, faces: Faces) -> float:
     """Six times the volume within closed faces."""
-    total = 0.0
-    middle = points.mean(axis=0)
-    for face in faces:
-        corners = points[face] - middle
-        crossed = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0)
-        total += float(corners[0] @ crossed)
-    return total
+    fans = [(face[0], *pair) for face in faces for pair in zip(face[1:-1], face[2:], strict=True)]
+    a, b, c = np.moveaxis((points - points.mean(axis=0))[fans], 1, 0)
+    one, other = b - a, c - a
+    crossed = one[:, [1, 2, 0]] * other[:, [2, 0, 1]] - one[:, [2, 0, 1]] * other[:, [1, 2, 0]]
+    return float((a * crossed).sum())
