@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +66,11 @@ class Building:
     def part(self) -> Part:
         """What the rules derive to."""
         return self.model.part
+
+    @cached_property
+    def found(self) -> NDArray[np.uint8]:
+        """What was found, drawn over the photo: for a file, and for the report."""
+        return overlay(self.document, self.pixels)
 
 
 def reconstruct(
@@ -147,7 +153,7 @@ def write_building(
         (folder / PHOTO).write_bytes(building.photo_jpeg)
         (folder / BEFORE).write_bytes(before_png(building.before))
         (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
-        (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
+        (folder / "overlay.png").write_bytes(png(building.found))
         table = quantities_csv(document, building.part)
         (folder / QUANTITIES).write_text(table, encoding="utf-8")
         write_rule_files(building.model, folder)

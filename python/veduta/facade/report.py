@@ -17,7 +17,6 @@ from veduta.facade.adjusted import count_adjusted
 from veduta.facade.document import FacadeDocument
 from veduta.facade.house_folders import beside_line
 from veduta.facade.outputs import coloured, rasterise
-from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
 from veduta.facade.quantities import quantities
 from veduta.facade.rectify import are_corners_doubtful
@@ -257,9 +256,8 @@ def _facts(document: FacadeDocument) -> list[tuple[str, str]]:
 
 def _pictures(building: Building) -> list[Picture]:
     labels = coloured(building.document, rasterise(building.document))
-    drawn = overlay(building.document, building.pixels)
     return [
-        _picture("Found", FOUND_NOTE, drawn, "overlay.png"),
+        _picture("Found", FOUND_NOTE, building.found, "overlay.png"),
         _picture("Photo", "The fronto-parallel view.", building.pixels, "rectified.jpg"),
         _picture("Wall", _wall_note(building), _wall(building), "textures/wall.jpg"),
         _picture("Labels", "Each pixel in the colour of its class.", labels, "labels.png"),
