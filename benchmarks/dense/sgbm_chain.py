@@ -9,16 +9,25 @@ from numpy.typing import NDArray
 from veduta.synthetic.camera import Camera
 
 Floats = NDArray[np.float64]
-NEAR_M, FAR_M = 4.0, 14.0
 
 
-def sgbm_points(cameras: list[Camera], photos: list[NDArray[np.uint8]]) -> Floats:
-    """(n, 3) points of all pairs of neighbours, each way back within a pixel."""
+def sgbm_points(
+    cameras: list[Camera],
+    photos: list[NDArray[np.uint8]],
+    reach_m: tuple[float, float] = (4.0, 14.0),
+) -> Floats:
+    """(n, 3) points of all pairs of neighbours, each way back within a pixel. reach_m: depths."""
     two = zip(cameras[:-1], cameras[1:], photos[:-1], photos[1:], strict=True)
-    return np.concatenate([_pair(*one) for one in two])
+    return np.concatenate([_pair(*one, reach_m) for one in two])
 
 
-def _pair(left: Camera, right: Camera, one: NDArray[np.uint8], other: NDArray[np.uint8]) -> Floats:
+def _pair(
+    left: Camera,
+    right: Camera,
+    one: NDArray[np.uint8],
+    other: NDArray[np.uint8],
+    reach_m: tuple[float, float],
+) -> Floats:
     relative = right.cam_from_world @ np.linalg.inv(left.cam_from_world)
     size = (left.width_px, left.height_px)
     half = np.array([[0.0, 0.0, 0.5], [0.0, 0.0, 0.5], [0.0, 0.0, 0.0]])
@@ -40,7 +49,7 @@ def _pair(left: Camera, right: Camera, one: NDArray[np.uint8], other: NDArray[np
     for matrix, turn, projection, photo in ((inner[0], r1, p1, one), (inner[1], r2, p2, other)):
         maps = cv2.initUndistortRectifyMap(matrix, none, turn, projection, size, cv2.CV_32FC1)
         flat.append(cv2.remap(photo, maps[0], maps[1], cv2.INTER_LINEAR))
-    ends = [abs(p2[0, 3]) / away for away in (FAR_M, NEAR_M)]
+    ends = [abs(p2[0, 3]) / away for away in (reach_m[1], reach_m[0])]
     low = int(ends[0]) - 1
     count = int(np.ceil((ends[1] - low + 1) / 16)) * 16
     matcher = cv2.StereoSGBM.create(

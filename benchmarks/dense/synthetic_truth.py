@@ -152,7 +152,11 @@ def ours(folder: Path, out: Path, method: str) -> Floats:
 
 
 def peers(
-    python: Path, folder: Path, cameras: list[Camera], photos: list[NDArray[np.uint8]]
+    python: Path,
+    folder: Path,
+    cameras: list[Camera],
+    photos: list[NDArray[np.uint8]],
+    reach_m: tuple[float, float] = (4.0, 14.0),
 ) -> Floats:
     """The peer's points: pixels whose depths a neighbour has, too, within 1 %."""
     given, found = folder / "peer.npz", folder / "peer-depths.npz"
@@ -160,7 +164,7 @@ def peers(
     poses = np.stack([one.cam_from_world for one in cameras])
     middle = np.array([*(one - 0.5 for one in cameras[0].centre_px)])
     k = np.array([FOCAL, FOCAL, *middle])
-    np.savez(given, grey=np.stack(grey), poses=poses, k=k, depths=np.array([4.0, 14.0]))
+    np.savez(given, grey=np.stack(grey), poses=poses, k=k, depths=np.array(reach_m))
     subprocess.run([python, PEER, given, found], check=True)
     depths = np.load(found)["depths"]
     return agreed_points(cameras, depths)

@@ -7,7 +7,12 @@ import pytest
 from numpy.typing import NDArray
 
 from veduta.dense.build.cloud import CloudParameters, DenseCloud, without_strays
-from veduta.dense.build.surface import RawSurface, cut_surface
+from veduta.dense.build.surface import (
+    RawSurface,
+    SurfaceParameters,
+    _without_crumbs,
+    cut_surface,
+)
 from veduta.run.errors import NotFoundError
 
 
@@ -62,3 +67,16 @@ def test_points_that_stand_alone_are_left_out_and_sparse_walls_are_not() -> None
 def test_a_cloud_of_a_few_points_stays() -> None:
     few = _cloud(np.arange(9.0).reshape(3, 3))
     assert without_strays(few, CloudParameters()) is few
+
+
+def test_rags_that_hang_loose_are_dropped_and_two_walls_are_not() -> None:
+    wall = _grid()
+    apart = np.array([10.0, 0.0, 0.0])
+    rag = np.array([[30.0, 0.0, 5.0], [31.0, 0.0, 5.0], [30.0, 1.0, 5.0]])
+    points = np.concatenate([wall.points_m, wall.points_m + apart, rag])
+    triangles = np.concatenate([wall.triangles, wall.triangles + 25, [[50, 51, 52]]])
+    rule = SurfaceParameters(least_share=0.02, least_triangles=1)
+    left = _without_crumbs(RawSurface(points, triangles.astype(np.uint32), 0.5), rule)
+    assert left.dropped == 1
+    assert np.array_equal(left.points_m, points[:50])
+    assert np.array_equal(left.triangles, triangles[:64])

@@ -26,7 +26,7 @@ class SurfaceParameters:
     truncation: float = 5.0
     least_weight: float = 0.6
     coarser: float = 1.4
-    least_share: float = 0.0005
+    least_share: float = 0.006
     least_triangles: int = 60
 
 
