@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,16 +44,21 @@ class Verdict:
 
 
 def judge(
-    mesh: MorphMesh, second_from_first: Matrix, screen: Screen, first: Image, second: Image,
-    psi: float, limits: JudgeLimits = JudgeLimits(),
+    mesh: MorphMesh, second_from_first: Matrix, screens: tuple[Screen, Screen], first: Image,
+    second: Image, psi: float, limits: JudgeLimits = JudgeLimits(),
 ) -> tuple[Verdict, Image]:  # fmt: skip
-    """Predict the second view from the first picture's colours alone; also the prediction."""
+    """Predict the second view from the first picture's colours alone; also the prediction.
+
+    screens: of both. Mosaics differ in size by a row or two: the unmoved picture is laid upon the
+    second one's rays.
+    """
+    screen = screens[1]
     own = _own_colours(mesh, second_from_first, screen, first)
     seen = own.weight > 0.5
     covered = float(seen.mean())
     predicted = np.clip(np.round(own.colour), 0, 255).astype(np.uint8)
     score = psnr(predicted[seen], second[seen]) if covered > 0.0 else 0.0
-    unmoved = psnr(first[seen], second[seen]) if covered > 0.0 and first.shape == second.shape else 0.0
+    unmoved = psnr(laid_over(first, *screens)[seen], second[seen]) if covered > 0.0 else 0.0
     why = ""
     if covered < limits.covered:
         why = f"the model covers {covered:.0%} of the next view"
@@ -74,6 +80,16 @@ def _own_colours(mesh: MorphMesh, pose: Matrix, screen: Screen, first: Image) ->
         np.zeros_like(mesh.psi), mesh.triangles, mesh.torn, mesh.round, mesh.marks,
     )  # fmt: skip
     return draw_mesh(alone, 1.0, inverse(pose), pose, screen, first, first)
+
+
+def laid_over(picture: Image, own: Screen, other: Screen) -> Image:
+    """A picture at the size of another screen, so that both principal points are at one place."""
+    if own == other:
+        return picture
+    shift = np.subtract(other.centre_px, own.centre_px)
+    moved = np.array([[1.0, 0.0, shift[0]], [0.0, 1.0, shift[1]]])
+    size = (other.width_px, other.height_px)
+    return np.asarray(cv2.warpAffine(picture, moved, size, borderMode=cv2.BORDER_REPLICATE))
 
 
 def psnr(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> float:

@@ -99,12 +99,12 @@ def find_way(
     ratio = compare_colours(first.image[shared], sampled(second.image, forth.target)[shared])
     gain = np.array(ratio or (1.0, 1.0, 1.0))
     there, picture = judge(
-        meshes[0], pose, second.screen, levelled(first.image, gain), second.image,
+        meshes[0], pose, (first.screen, second.screen), levelled(first.image, gain), second.image,
         psi[0], settings.judge,
     )  # fmt: skip
     here, _ = judge(
-        meshes[1], inverse(pose), first.screen, levelled(second.image, 1.0 / gain),
-        first.image, psi[1], settings.judge,
+        meshes[1], inverse(pose), (second.screen, first.screen),
+        levelled(second.image, 1.0 / gain), first.image, psi[1], settings.judge,
     )  # fmt: skip
     labelling = forth.flow.labelling
     return Way(
