@@ -16,7 +16,7 @@ def run(arguments: list[str]) -> int:
     call = parse(FaunaCall, "veduta fauna", arguments)
     record = Record(
         call.footage, call.masks, call.background, call.place, call.path, call.plan, call.joints,
-        call.markers, call.gaits,
+        call.markers, call.gaits, call.second_view,
     )  # fmt: skip
     progress = Progress(quiet=call.quiet)
     result = run_fauna(record, call.out, call.options(), progress, force=call.force)

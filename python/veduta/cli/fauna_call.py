@@ -100,6 +100,19 @@ Gaits = Annotated[
 ]
 
 
+SecondView = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="PATH",
+        help_behavior_hint="",
+        help=(
+            "the animal from the other side (a silhouette, a folder of some, or footage): how high"
+            " one is that was seen from above, how wide one that was seen from the side"
+        ),
+    ),
+]
+
+
 @dataclass(frozen=True)
 class FaunaCall:
     """Turn footage of an animal into a moving 3D animal.
@@ -122,6 +135,7 @@ class FaunaCall:
     joints: Joints = None
     markers: Markers = None
     gaits: Gaits = None
+    second_view: SecondView = None
     motion: MotionOptions = field(default_factory=MotionOptions)
     force: Force = False
     quiet: Quiet = False

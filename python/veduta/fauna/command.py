@@ -34,7 +34,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "3"
+VERSION = "4"
 MODEL = "animal.glb"
 
 
@@ -48,6 +48,9 @@ def run_fauna(
     if record.way is not None and record.place is None:
         fault = "says where to go, but not in which place"
         raise InputError(record.way, fault, "Name the place, too (--place).")
+    if record.second is not None and record.path.suffix.lower() == ".json":
+        fault = "shows how high or wide an animal is, and the document says that already"
+        raise InputError(record.second, fault, "Give the footage, or edit the slices.")
     inputs: JsonValue = [None if path is None else _digests(path, out) for path in record.files]
     call = VerbCall(
         command="fauna",

@@ -26,6 +26,7 @@ def read_animal(
     joints: str | Path | None = None,
     markers: str | Path | None = None,
     gaits: str | Path | None = None,
+    second_view: str | Path | None = None,
     force: bool = False,
     **options: Any,
 ) -> Place:
@@ -37,11 +38,12 @@ def read_animal(
     plan: a TOML with a body plan of your own.
     joints: a CSV of them as DeepLabCut writes it. markers: a TOML with the colours of painted ones.
     gaits: the `animal.json` of another animal, whose gaits it takes on.
+    second_view: the animal from the other side: a silhouette, a folder of some, or footage.
     out: a folder for all that `veduta fauna -o OUT` writes; without it nothing stays. options: as
     on the command line. InputError names what cannot be used; NotFoundError says what is not in it.
     """
     chosen = options_of(FaunaOptions, options)
-    paths = (masks, background, place, path, plan, joints, markers, gaits)
+    paths = (masks, background, place, path, plan, joints, markers, gaits, second_view)
     given = [path_or_none(one) for one in paths]
     record = Record(Path(footage), *given)
     return place_of_run(

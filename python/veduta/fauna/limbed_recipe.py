@@ -18,11 +18,11 @@ from veduta.fauna.read.drawn import drawn_figure
 from veduta.fauna.read.footage import Footage
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
 from veduta.fauna.read.limbed_coat import coat_of_plane
-from veduta.fauna.read.limbed_document import described_limbs, scaled_animal
+from veduta.fauna.read.limbed_document import described_limbs, scaled_animal, with_second_view
 from veduta.fauna.read.limbless import silhouettes_in
 from veduta.fauna.read.overlap import overlap
 from veduta.fauna.read.silhouettes import Silhouettes
-from veduta.fauna.recipe import Record, still_footage
+from veduta.fauna.recipe import Record, second_view, still_footage
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
@@ -86,6 +86,9 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         animal = described_limbs(seen, plan, record.path.stem, source, footage.frame_s, overlaps,
                                  options)  # fmt: skip
         step.counts["gaits"] = len(animal.gaits)
+    second = second_view(work, record)
+    if second is not None:
+        animal = with_second_view(animal, second)
     with work.step("coat"):
         coat = _coat(footage, found, seen, plan, joints)
     _tell(work, footage, found, seen, joints, overlaps, animal)

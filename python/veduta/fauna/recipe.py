@@ -19,8 +19,10 @@ from veduta.fauna.read.limbless import Seen, axes_in, silhouettes_in, tracked_ax
 from veduta.fauna.read.midlines import read_midlines
 from veduta.fauna.read.overlap import drawn_body, overlap
 from veduta.fauna.read.registered import CameraLooks, stilled
+from veduta.fauna.read.second_silhouettes import SilhouettePictures, read_second_view
+from veduta.fauna.read.second_view import SecondView
 from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
-from veduta.fauna.seen_pictures import silhouettes_picture
+from veduta.fauna.seen_pictures import second_picture, silhouettes_picture
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import NotFoundError
@@ -31,7 +33,8 @@ from veduta.run.work import Work
 class Record:
     """What the user gives: the footage, perhaps masks and a background picture, and perhaps a place
     for the animal to go in, with the points of its way, a body plan
-    of their own, joints that are marked already, and the colours of painted markers.
+    of their own, joints that are marked already, and the colours of painted markers. second: the
+    animal seen from the other side.
     """
 
     path: Path
@@ -43,6 +46,7 @@ class Record:
     joints: Path | None = None
     markers: Path | None = None
     gaits: Path | None = None
+    second: Path | None = None
 
     @property
     def files(self) -> tuple[Path | None, ...]:
@@ -57,6 +61,7 @@ class Record:
             self.joints,
             self.markers,
             self.gaits,
+            self.second,
         )
 
 
@@ -73,7 +78,7 @@ def read_record(work: Work, record: Record, options: FaunaOptions) -> Read:
     if record.path.suffix.lower() == ".csv":
         with work.step("axis") as step:
             tracked = read_midlines(record.path)
-            read = Read(_described(record, tracked, options), None)
+            read = Read(_described(work, record, tracked, options), None)
             step.rejected.extend(read.described.animal.source.left_out)
     else:
         read = _from_footage(work, record, options)
@@ -81,7 +86,20 @@ def read_record(work: Work, record: Record, options: FaunaOptions) -> Read:
     return read
 
 
-def _described(record: Record, tracked: Tracked, options: FaunaOptions) -> Described:
+def second_view(work: Work, record: Record) -> SecondView | None:
+    """What the record has of the animal from the other side; shown in the report."""
+    if record.second is None:
+        return None
+    with work.step("second view") as step:
+        view = read_second_view(record.second, SilhouettePictures())
+        step.counts["silhouettes"] = len(view.masks)
+    work.picture(
+        "The second view", "the first silhouette of it", second_picture(view.masks[0]), wide=True
+    )
+    return view
+
+
+def _described(work: Work, record: Record, tracked: Tracked, options: FaunaOptions) -> Described:
     path = record.path
     source = Source(
         file=path.name,
@@ -89,7 +107,7 @@ def _described(record: Record, tracked: Tracked, options: FaunaOptions) -> Descr
         frames=max(1, len(tracked.points) + len(tracked.left_out)),
         used=max(1, len(tracked.points)),
     )
-    return describe(tracked, path.stem, source, options)
+    return describe(tracked, path.stem, source, options, second_view(work, record))
 
 
 def still_footage(work: Work, record: Record, options: FaunaOptions) -> Footage:
@@ -137,7 +155,7 @@ def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
         )
     with work.step("axis") as step:
         seen = Seen(found, axes_in(found), background)
-        described = _described(record, tracked_axes(footage, seen), options)
+        described = _described(work, record, tracked_axes(footage, seen), options)
         step.counts["used"] = described.animal.source.used
     with work.step("coat"):
         read = _with_coat(footage, described)

@@ -15,6 +15,18 @@ _SIDE = 380
 _OUTLINE, _AXIS = (214, 48, 40), (40, 190, 70)
 
 
+def second_picture(mask: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """A silhouette of the second view, cut to the animal: white on grey, its outline red."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    cut = np.pad(mask[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1], 8)
+    scale = min(4.0, 3.0 * _SIDE / max(cut.shape))
+    large = cv2.resize(cut.astype(np.uint8), None, fx=scale, fy=scale)
+    panel = np.where(large[..., None] > 0, 255, 110).astype(np.uint8).repeat(3, axis=2)
+    outlines, _ = cv2.findContours(large, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    cv2.drawContours(panel, outlines, -1, _OUTLINE, 2, cv2.LINE_AA)
+    return panel
+
+
 def silhouettes_picture(
     footage: Footage, seen: Seen, points: Floats, rows: NDArray[np.int64]
 ) -> NDArray[np.uint8]:

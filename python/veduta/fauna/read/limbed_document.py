@@ -22,6 +22,7 @@ from veduta.fauna.motion.figure import Figure, Floats, posed
 from veduta.fauna.motion.planting import reached
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.read.limbed import LimbedSeen
+from veduta.fauna.read.second_view import SecondLooks, SecondView, rounded
 
 _PHASES = 96
 USUAL_LIMBED_M = {"quadruped": 0.8, "lizard": 0.2}
@@ -49,6 +50,21 @@ class Scaled:
     speed: float | None
 
 
+FROM_ABOVE = "from above one does not see how high the animal is: the plan's roundness was taken"
+FROM_THE_SIDE = "one view does not show how wide the animal is: the plan's roundness was taken"
+"""Doubts of one view alone; a second one (--second-view) takes them away."""
+
+
+def with_second_view(animal: LimbedAnimal, second: SecondView) -> LimbedAnimal:
+    """The animal whose body is as round as the second view shows it; its limbs stay as planned."""
+    plan, across = rounded(animal.plan, second, SecondLooks())
+    doubts = [one for one in animal.doubts if one not in (FROM_ABOVE, FROM_THE_SIDE)]
+    doubts.append("the second view was taken for the body; how round its limbs are is the plan's")
+    if not across.is_sure:
+        doubts.append("which end of the second view is the head is not clear")
+    return animal.model_copy(update={"plan": plan, "widths": "measured", "doubts": doubts})
+
+
 def described_limbs(
     seen: LimbedSeen, plan: BodyPlan, name: str, source: Source, frame_s: float,
     overlaps: Floats, options: FaunaOptions,
@@ -56,16 +72,14 @@ def described_limbs(
     """The document; what the silhouettes do not tell is said in its doubts."""
     scaled = scaled_animal(seen, plan, frame_s)
     if plan.view == "top":
-        doubts = [
-            "from above one does not see how high the animal is: the plan's roundness was taken"
-        ]
+        doubts = [FROM_ABOVE]
     else:
         doubts = [] if _sides_marked(seen) else [
             "silhouettes do not tell near legs from far ones: the left ones may be the right"
             " ones, half a cycle later"
         ]  # fmt: skip
         doubts += [
-            "one view does not show how wide the animal is: the plan's roundness was taken",
+            FROM_THE_SIDE,
         ]
     gaits: list[LimbedGait] = []
     if seen.cycle is None:

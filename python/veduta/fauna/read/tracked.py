@@ -19,6 +19,7 @@ from veduta.fauna.motion.angles import (
     equal_steps,
 )
 from veduta.fauna.options import FaunaOptions, Limbless
+from veduta.fauna.read.second_view import SecondLooks, SecondView, thickness
 from veduta.fauna.read.usual import USUAL_LENGTH_M, usual_slices
 from veduta.run.errors import NotFoundError
 
@@ -29,6 +30,8 @@ _MOST_STRAY = 0.25
 """A frame whose axis is longer or shorter than the usual by this share is no good frame."""
 _SLOWEST = 0.02
 """Slower than so many body lengths a second, the footage shows no way of going."""
+_THINNEST = 5e-4
+"""Half of how thick a slice is at least, in lengths."""
 _USUAL_SPEED: dict[Limbless, float] = {"snake": 0.4, "worm": 0.25, "fish": 1.0}
 
 
@@ -59,8 +62,17 @@ class Described:
     states: Complexes
 
 
-def describe(tracked: Tracked, name: str, source: Source, options: FaunaOptions) -> Described:
-    """The document of a tracked animal; NotFoundError where too few frames show it."""
+def describe(
+    tracked: Tracked,
+    name: str,
+    source: Source,
+    options: FaunaOptions,
+    second: SecondView | None = None,
+) -> Described:
+    """The document of a tracked animal; NotFoundError where too few frames show it.
+
+    second: what shows how high it is, if there is such a record.
+    """
     tracked = _head_first(_without_strays(tracked))
     if len(tracked.points) < _FEWEST_FRAMES:
         raise NotFoundError(
@@ -84,7 +96,7 @@ def describe(tracked: Tracked, name: str, source: Source, options: FaunaOptions)
         kind=kind,
         source=source.model_copy(update={"used": len(axes), "left_out": list(tracked.left_out)}),
         length=length,
-        body=_body(tracked, usual, kind, doubts),
+        body=_body(tracked, usual, kind, second, doubts),
         motion=Motion(
             frame_s=tracked.frame_s,
             states=np.stack([states.real, states.imag], axis=-1).round(9).tolist(),
@@ -179,22 +191,46 @@ def _speed(
     return assumed, "invented"
 
 
-def _body(tracked: Tracked, usual: float, kind: Limbless, doubts: list[str]) -> Body:
-    """Elliptic slices: widths as measured where there are any, heights by the kind's shape."""
+def _body(
+    tracked: Tracked, usual: float, kind: Limbless, second: SecondView | None, doubts: list[str]
+) -> Body:
+    """Elliptic slices: widths and heights as measured where they are, else by the kind's shape."""
     slices = usual_slices(kind)
+    places = np.array([piece.at for piece in slices])
+    width = np.array([piece.half_width for piece in slices])
+    ratio = np.array([piece.half_height / piece.half_width for piece in slices])
+    widths: Origin = "invented"
+    heights: Origin = "invented"
+    score = 0.0
     half = tracked.half_widths
     if half is None or not np.isfinite(half).any():
         doubts.append("the record has no widths: the slices are those of the kind")
-        return Body(slices=slices, widths="invented", heights="invented", score=0.0)
-    places = np.array([piece.at for piece in slices])
-    median = np.nanmedian(half, axis=0) / usual
-    spread = np.nanmedian(np.abs(half / usual - median), axis=0).mean() / max(median.mean(), 1e-9)
-    width = np.interp(places, np.linspace(0.0, 1.0, len(median)), median)
-    ratio = np.array([piece.half_height / piece.half_width for piece in slices])
-    doubts.append("one view does not show how high the animal is: the kind's shape was taken")
+    else:
+        median = np.nanmedian(half, axis=0) / usual
+        apart = np.nanmedian(np.abs(half / usual - median), axis=0).mean()
+        score = float(np.clip(1.0 - apart / max(median.mean(), 1e-9), 0.0, 1.0))
+        width = np.maximum(np.interp(places, _even(median), median), _THINNEST)
+        widths = "measured"
+    height = width * ratio
+    if second is not None:
+        across = thickness(second, np.interp(_even(SAMPLES), places, width), SecondLooks())
+        height = np.maximum(np.interp(places, _even(across.half), across.half), _THINNEST)
+        heights = "measured"
+        score = across.score if half is None else min(score, across.score)
+        if not across.is_sure:
+            doubts.append("which end of the second view is the head is not clear")
+    elif half is not None:
+        doubts.append(
+            "one view does not show how high the animal is: the kind's shape was taken"
+            " (--second-view)"
+        )
     found = [
-        Slice(at=float(at), half_width=float(w), half_height=float(w * r))
-        for at, w, r in zip(places, np.maximum(width, 5e-4), ratio, strict=True)
+        Slice(at=float(at), half_width=float(wide), half_height=float(high))
+        for at, wide, high in zip(places, width, height, strict=True)
     ]
-    score = float(np.clip(1.0 - spread, 0.0, 1.0))
-    return Body(slices=found, widths="measured", heights="invented", score=score)
+    return Body(slices=found, widths=widths, heights=heights, score=score)
+
+
+def _even(along: Floats | int) -> Floats:
+    """Equal steps from head to tail, as many as there are values."""
+    return np.linspace(0.0, 1.0, along if isinstance(along, int) else len(along))

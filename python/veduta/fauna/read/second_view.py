@@ -1,0 +1,161 @@
+"""The animal seen from the other side: how high one is that was seen from above, or how wide.
+
+A second view need not be of the same moment or scale: all is taken in shares of the animal's length
+(paper 4.1, which takes its slices from two views).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.fauna.document.plan import BodyPlan
+from veduta.fauna.motion.angles import Floats
+from veduta.fauna.read.axis import Axis, medial_axis
+from veduta.run.errors import NotFoundError
+
+Mask = NDArray[np.bool_]
+_STEPS = 100
+"""Along the animal, from end to end."""
+
+
+@dataclass(frozen=True)
+class SecondLooks:
+    """How a silhouette of the second view is laid along the animal."""
+
+    limbs: float = 0.45
+    """What is thinner than this share of the thickest place is a limb, and no body."""
+    sure: float = 0.05
+    """By so much one way round must fit better than the other (correlation, or spread)."""
+    roundest: float = 4.0
+    """The largest width for the thickness that a body plan has; the least is its inverse."""
+
+
+@dataclass(frozen=True, eq=False)
+class SecondView:
+    """masks: silhouettes, perhaps of several sizes. name: of the record, for what is said of it."""
+
+    masks: tuple[Mask, ...]
+    name: str
+
+
+@dataclass(frozen=True, eq=False)
+class Across:
+    """half: (n,) half of how thick the animal is, beside equal steps from its head, in lengths.
+
+    score: 1 less the spread between silhouettes. is_sure: whether it is clear where the head is.
+    """
+
+    half: Floats
+    score: float
+    is_sure: bool
+
+
+def thickness(view: SecondView, beside: Floats, looks: SecondLooks) -> Across:
+    """How thick an animal without limbs is along its axis; NotFoundError where it has none.
+
+    beside: (m,) half widths of the first view at equal steps from the head: where it is thick
+    there, it is so here, which tells the head.
+    """
+    axes = [axis for axis in (medial_axis(mask, _STEPS + 1) for mask in view.masks) if axis]
+    if not axes:
+        raise NotFoundError(
+            "the animal's axis in the second view",
+            f"no silhouette in {view.name} is long and narrow",
+            "Give one that shows it at full length from the other side.",
+        )
+    shares = np.stack([_in_lengths(axis) for axis in axes])
+    seen = np.interp(np.linspace(0, 1, _STEPS + 1), np.linspace(0, 1, len(beside)), beside)
+    likes = np.array([(_alike(row, seen), _alike(row[::-1], seen)) for row in shares])
+    turned = likes[:, 1] > likes[:, 0]
+    shares[turned] = shares[turned, ::-1]
+    half = np.median(shares, axis=0)
+    spread = float(np.median(np.abs(shares - half), axis=0).mean() / max(half.mean(), 1e-9))
+    margin = float(np.abs(likes[:, 0] - likes[:, 1]).mean())
+    return Across(half, float(np.clip(1.0 - spread, 0.0, 1.0)), margin >= looks.sure)
+
+
+def rounded(plan: BodyPlan, view: SecondView, looks: SecondLooks) -> tuple[BodyPlan, Across]:
+    """The plan with its body as wide (or high) for its thickness as the second view shows it.
+
+    `half` of the second result is that of the body's part of the silhouette, from the nose.
+    """
+    body = plan.parts[0]
+    forward = np.array([point[0] for point in body.points])
+    deep = np.array(body.deep)
+    order = np.argsort(forward)
+    low, high = _ends(plan)
+    places = np.linspace(forward.min(), forward[:-1].max(), _STEPS)
+    own = np.interp(places, forward[order], deep[order])
+    fits = []
+    for mask in view.masks:
+        for turned in (False, True):
+            wide = _across(mask, looks, (places - low) / (high - low), turned) * (high - low)
+            ratio = wide / own
+            middle = float(np.median(ratio))
+            fits.append((float(np.median(np.abs(ratio - middle))) / middle, middle, turned, wide))
+    ways = np.array([fit[0] for fit in fits]).reshape(-1, 2)
+    best = int(ways.mean(axis=0).argmin())
+    chosen = [fit for fit in fits if fit[2] == bool(best)]
+    ratio = float(
+        np.clip(np.median([fit[1] for fit in chosen]), 1 / looks.roundest, looks.roundest)
+    )
+    parts = (body.model_copy(update={"round": round(ratio, 4)}), *plan.parts[1:])
+    apart = float(abs(ways.mean(axis=0)[0] - ways.mean(axis=0)[1]))
+    half = np.median([fit[3][::-1] for fit in chosen], axis=0)
+    score = float(np.clip(1.0 - ways[:, best].mean(), 0.0, 1.0))
+    found = Across(np.asarray(half), score, apart >= looks.sure)
+    return plan.model_copy(update={"parts": list(parts)}), found
+
+
+def _in_lengths(axis: Axis) -> Floats:
+    length = float(np.linalg.norm(np.diff(axis.points, axis=0), axis=1).sum())
+    return np.asarray(axis.half_width / max(length, 1e-9))
+
+
+def _alike(first: Floats, second: Floats) -> float:
+    """Their correlation along the animal."""
+    a, b = first - first.mean(), second - second.mean()
+    size = float(np.linalg.norm(a) * np.linalg.norm(b))
+    return float(a @ b) / size if size > 0.0 else 0.0
+
+
+def _ends(plan: BodyPlan) -> tuple[float, float]:
+    """How far the animal goes backwards and forwards at rest, with its thickness, in lengths."""
+    low, high = np.inf, -np.inf
+    for part in plan.parts:
+        points = [*([part.start] if part.start else []), *part.points]
+        for (forward, _), deep in zip(points, part.deep, strict=True):
+            low, high = min(low, forward - deep), max(high, forward + deep)
+    return low, high
+
+
+def _across(mask: Mask, looks: SecondLooks, shares: Floats, turned: bool) -> Floats:
+    """Half of how thick the body is at shares of the animal's extent, in shares of that extent.
+
+    The silhouette is laid along its main axis; limbs are taken off by what is as thick as the body.
+    """
+    y, x = np.nonzero(mask)
+    points = np.stack([x, y], axis=1).astype(np.float64)
+    middle = points.mean(axis=0)
+    _, _, axes = np.linalg.svd(np.cov((points - middle).T))
+    angle = np.degrees(np.arctan2(axes[0, 1], axes[0, 0]))
+    height, width = mask.shape
+    side = int(np.ceil(np.hypot(height, width))) + 2
+    turn = cv2.getRotationMatrix2D((float(middle[0]), float(middle[1])), angle, 1.0)
+    turn[:, 2] += 0.5 * side - middle
+    upright = np.asarray(cv2.warpAffine(mask.astype(np.uint8), turn, (side, side))) > 0
+    columns = np.flatnonzero(upright.any(axis=0))
+    first, last = int(columns[0]), int(columns[-1]) + 1
+    reach = float(cv2.distanceTransform(upright.astype(np.uint8), cv2.DIST_L2, 5).max())
+    size = 2 * max(1, round(looks.limbs * reach)) + 1
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))
+    body = cv2.morphologyEx(upright.astype(np.uint8), cv2.MORPH_OPEN, disc)
+    half = 0.5 * body[:, first:last].sum(axis=0).astype(np.float64) / (last - first)
+    if turned:
+        half = half[::-1]
+    places = (np.arange(len(half)) + 0.5) / len(half)
+    return np.asarray(np.interp(shares, places, half))
