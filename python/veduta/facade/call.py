@@ -15,9 +15,9 @@ from veduta.facade.cleared import BEFORE
 from veduta.facade.label_pictures import set_labels_apart
 from veduta.facade.load import DOCUMENT, MAX_BYTES, PHOTO
 from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
-from veduta.run.digests import file_digest
+from veduta.run.digests import input_digest
+from veduta.run.edited import refuse_other_json
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 from veduta.run.names import real_path
 
 Kind = Literal["photo", "document"]
@@ -73,7 +73,7 @@ def plan_call(paths: Sequence[Path]) -> Call:
         )
     _refuse_same_names(files)
     for path in files:
-        _refuse_other_json(path)
+        refuse_other_json(path, _OTHER_JSON, "a facade", _document_meant)
     inputs = tuple(Input(_name(path), path, kinds[path], _digests(path)) for path in files)
     return Call(inputs[0].kind, inputs, tuple(file for file in left_out if file not in files))
 
@@ -127,39 +127,27 @@ def _refuse_same_names(files: list[Path]) -> None:
         seen[name] = path
 
 
-def _refuse_other_json(path: Path) -> None:
-    """Say which file is the document that is meant, as far as one lies there."""
-    what = _OTHER_JSON.get(path.name)
-    if what is None:
-        return
+def _document_meant(path: Path) -> str:
+    """Which file is the document that is meant, as far as one lies there."""
     beside = path.with_name(DOCUMENT)
     known = [beside] if beside.exists() else sorted(path.parent.glob(f"*/{DOCUMENT}"))
-    remedy = f"Give the {DOCUMENT} of a building."
-    if known:
-        which = "one of its buildings, such as" if known[1:] else "its building:"
-        remedy = f"Give the document of {which} {known[0]}"
-    raise InputError(path, f"{what}, and is no document of a facade", remedy)
+    if not known:
+        return f"Give the {DOCUMENT} of a building."
+    which = "one of its buildings, such as" if known[1:] else "its building:"
+    return f"Give the document of {which} {known[0]}"
 
 
 def _digests(path: Path) -> tuple[str, ...]:
     """The digest of the file, and for a document that of the photo beside it."""
-    bounds = {path: MAX_FILE_BYTES}
-    if _kind(path) == "document":
-        bounds = {path: MAX_BYTES, path.with_name(PHOTO): MAX_FILE_BYTES}
-        before = path.with_name(BEFORE)
-        bounds |= {before: MAX_FILE_BYTES} if before.is_file() else {}
-    try:
-        for file, bound in bounds.items():
-            require_file(file, bound)
-        return tuple(file_digest(file) for file in bounds)
-    except FileNotFoundError as error:
-        missing = Path(error.filename or path)
-        remedy = "Check its name."
-        if missing != path:
-            remedy = f"It must lie beside {path.name} as it was written."
-        raise InputError(missing, "does not exist", remedy) from error
-    except OSError as error:
-        raise _unreadable(Path(error.filename or path), error) from error
+    if _kind(path) == "photo":
+        return (input_digest(path, MAX_FILE_BYTES),)
+    beside = f"It must lie beside {path.name} as it was written."
+    pictures = [path.with_name(PHOTO)]
+    pictures += [path.with_name(BEFORE)] if path.with_name(BEFORE).is_file() else []
+    return (
+        input_digest(path, MAX_BYTES),
+        *(input_digest(picture, MAX_FILE_BYTES, beside) for picture in pictures),
+    )
 
 
 def _unreadable(path: Path, error: OSError) -> InputError:

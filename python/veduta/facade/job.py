@@ -19,9 +19,10 @@ from veduta.facade.load import PHOTO
 from veduta.facade.margins import WIDTH_DOUBTED
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.pipeline import Building, rebuild, reconstruct, write_building
-from veduta.facade.report import failure_report, image_report, measures
+from veduta.facade.report import image_report, measures
 from veduta.imaging.read import DAMAGE, FORMATS
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.failed import failure_report
 from veduta.run.options import Options
 from veduta.run.outputs import writing_to
 from veduta.run.progress import StepProgress, no_progress
@@ -65,7 +66,7 @@ def run_job(job: Job) -> JobResult:
     except (InputError, NotFoundError) as error:
         kind = "input" if isinstance(error, InputError) else "not-found"
         failure = Failure(subject=str(job.source.path), kind=kind, reason=_reason(error, job))
-        report = failure_report(job.source.path.name, failure, options, steps)
+        report = failure_report("facade", job.source.path.name, failure, options, steps)
         with writing_to(job.out):
             _write_report(job.folder, report)
         return JobResult(failure=failure)

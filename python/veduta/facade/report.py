@@ -98,21 +98,6 @@ def image_report(
     return report, render(report, page)
 
 
-def failure_report(
-    subject: str, failure: Failure, options: Options, steps: list[StepRecord]
-) -> tuple[Report, bytes]:
-    """The report of an image that gave nothing: how far it came, and why it ended there."""
-    report = Report(
-        verb="facade",
-        subject=subject,
-        state="failed",
-        options=options.model_dump(mode="json"),
-        steps=steps,
-        failures=[failure],
-    )
-    return report, render(report, Page(title=subject, summary="Nothing was built."))
-
-
 def call_report(
     out: Path,
     options: dict[str, Any],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -36,6 +36,7 @@ from veduta.photos.world.report import (
     georef_notes,
     georef_tables,
 )
+from veduta.run.failed import failure_report
 from veduta.run.page import Bars, Page, Picture, Table, render
 from veduta.run.report import Failure, Report, StepRecord, counted, versions
 
@@ -158,7 +159,16 @@ def _headline(measures: dict[str, Any]) -> str:
 def photos_report(told: Told) -> tuple[Report, bytes]:
     """The report of a run, and its page."""
     measures = measures_of(told)
-    report = _report(told, "done", measures=measures, notes=_notes(told))
+    report = Report(
+        verb="photos",
+        subject=told.folder,
+        state="done",
+        options=told.options.model_dump(mode="json"),
+        steps=told.steps,
+        measures=measures,
+        notes=_notes(told),
+        versions={**versions(), NAME: engine_version()},
+    )
     component = told.components[0]
     georef = [one.georef for one in told.laid]
     page = Page(
@@ -202,19 +212,18 @@ def _files(told: Told) -> list[tuple[str, str]]:
     return [(name, meaning) for name, meaning in FILES if name not in missing]
 
 
-def failure_report(told: Told, failure: Failure) -> tuple[Report, bytes]:
-    """The report of a run that gave nothing: how far it came, and why it ended there."""
-    report = _report(told, "failed", failures=[failure])
-    pictures = []
-    if told.pairs:
-        pictures = [_matches(told)]
+def failed_report(told: Told, failure: Failure) -> tuple[Report, bytes]:
+    """The report of a run that gave nothing, with the matches and what was left out."""
     page = Page(
         title=told.folder,
         summary="No photos could be placed.",
-        pictures=pictures,
+        pictures=[_matches(told)] if told.pairs else [],
         tables=_left(told),
     )
-    return report, render(report, page)
+    engines = {NAME: engine_version()}
+    return failure_report(
+        "photos", told.folder, failure, told.options, told.steps, page=page, engines=engines
+    )
 
 
 def _matches(told: Told) -> Picture:
@@ -222,18 +231,6 @@ def _matches(told: Told) -> Picture:
     names = [photo.name for photo in told.photos]
     ids = [photo.image_id for photo in told.photos]
     return match_picture(ids, told.pairs, doubtful, names)
-
-
-def _report(told: Told, state: Literal["done", "failed"], **found: Any) -> Report:
-    return Report(
-        verb="photos",
-        subject=told.folder,
-        state=state,
-        options=told.options.model_dump(mode="json"),
-        steps=told.steps,
-        versions={**versions(), NAME: engine_version()},
-        **found,
-    )
 
 
 def _notes(told: Told) -> list[str]:

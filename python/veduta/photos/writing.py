@@ -12,7 +12,7 @@ from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.laying import Laid
 from veduta.photos.pictures import write_pictures
 from veduta.photos.placing import CLOUD, PICTURES, place_of
-from veduta.photos.report import Told, failure_report, photos_report
+from veduta.photos.report import Told, failed_report, photos_report
 from veduta.photos.structure import Structure, model_of
 from veduta.photos.texture.files import PARTS, TEXTURES
 from veduta.photos.texture.step import can_texture, texture_step
@@ -112,7 +112,7 @@ def write_failure(opened: OutFolder, key: str, told: Told, error: NotFoundError)
     """Say why there is nothing; what an earlier call left is taken away."""
     failure = Failure(subject=told.folder, kind="not-found", reason=str(error))
     work = opened.work_folder(CALL)
-    _write_report(*failure_report(told, failure), opened, work)
+    _write_report(*failed_report(told, failure), opened, work)
     for item in (SPARSE, PICTURES, WALLS, TEXTURES, PARTS):
         opened.publish(item, key, opened.work_folder(item))
     opened.publish(CALL, key, work, {"left": [list(pair) for pair in told.left]}, failure)

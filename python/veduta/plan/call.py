@@ -11,9 +11,9 @@ from pydantic import JsonValue
 
 from veduta.imaging.read import MAX_FILE_BYTES
 from veduta.plan.load import DOCUMENT, MAX_BYTES
-from veduta.run.digests import file_digest
+from veduta.run.digests import input_digest
+from veduta.run.edited import refuse_other_json
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 from veduta.run.names import real_path
 
 Kind = Literal["drawings", "document"]
@@ -56,26 +56,9 @@ def plan_call(paths: Sequence[Path]) -> Call:
             documents[0], "is a document among other inputs", "Give drawings, or one document."
         )
     if documents:
-        _refuse_other_json(documents[0])
+        refuse_other_json(
+            documents[0], _OTHER_JSON, "a plan", lambda path: f"Give {path.with_name(DOCUMENT)}"
+        )
     kind: Kind = "document" if documents else "drawings"
     bound = MAX_BYTES if documents else MAX_FILE_BYTES
-    return Call(kind, tuple(paths), tuple(_digest(path, bound) for path in paths))
-
-
-def _refuse_other_json(path: Path) -> None:
-    what = _OTHER_JSON.get(path.name)
-    if what is not None:
-        raise InputError(
-            path, f"{what}, and is no document of a plan", f"Give {path.with_name(DOCUMENT)}"
-        )
-
-
-def _digest(path: Path, bound: int) -> str:
-    try:
-        require_file(path, bound)
-        return file_digest(path)
-    except FileNotFoundError:
-        raise InputError(path, "does not exist", "Check its name.") from None
-    except OSError as error:
-        fault = f"cannot be read ({error.strerror})"
-        raise InputError(path, fault, "Check its permissions.") from error
+    return Call(kind, tuple(paths), tuple(input_digest(path, bound) for path in paths))

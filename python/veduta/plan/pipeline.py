@@ -28,7 +28,7 @@ from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.photos.finish import picture_digests
 from veduta.plan.photos.given import RoomPhoto, place_of
-from veduta.plan.report import failure_report, measures, plan_report
+from veduta.plan.report import measures, plan_report
 from veduta.plan.rescale import rescaled
 from veduta.plan.steps import (
     document_step,
@@ -46,6 +46,7 @@ from veduta.plan.writing import result_of, write_result
 from veduta.run.beside import Beside
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.failed import failure_report
 from veduta.run.options import Options
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task
@@ -275,7 +276,7 @@ def _make(
             result = result_of(document, house, tour, sheets, finished, given.panorama, site)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
-        report, page = failure_report(call.subject, failure, used, steps)
+        report, page = failure_report("plan", call.subject, failure, used, steps)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())
             (work / "report.html").write_bytes(page)

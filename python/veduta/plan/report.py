@@ -18,7 +18,7 @@ from veduta.plan.sheets import sheet_name
 from veduta.plan.writing import TOUR_PICTURE, Result
 from veduta.run.options import Options
 from veduta.run.page import Bars, Page, Picture, Table, render
-from veduta.run.report import Failure, Report, StepRecord, counted
+from veduta.run.report import Report, StepRecord, counted
 
 FILES = (
     ("plan.json", "everything that was found, in metres; edit it and rebuild"),
@@ -135,21 +135,6 @@ def plan_report(
         files=FILES,
     )
     return report, render(report, page)
-
-
-def failure_report(
-    subject: str, failure: Failure, options: Options, steps: list[StepRecord]
-) -> tuple[Report, bytes]:
-    """The report of drawings that gave nothing: how far it came, and why it ended there."""
-    report = Report(
-        verb="plan",
-        subject=subject,
-        state="failed",
-        options=options.model_dump(mode="json"),
-        steps=steps,
-        failures=[failure],
-    )
-    return report, render(report, Page(title=subject, summary="Nothing was built."))
 
 
 def _facts(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from pydantic import JsonValue
 
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
 from veduta.run.options import Options
 
 
@@ -15,6 +17,24 @@ def file_digest(path: Path) -> str:
     """The SHA-256 of a file's content."""
     with path.open("rb") as handle:
         return hashlib.file_digest(handle, "sha256").hexdigest()
+
+
+def input_digest(
+    path: Path, max_bytes: int | None = None, if_missing: str = "Check its name."
+) -> str:
+    """The digest of a file that a person has named, of at most `max_bytes`.
+
+    InputError where it is no file, too large, not there (`if_missing` says what to do then), or may
+    not be read.
+    """
+    try:
+        require_file(path, max_bytes)
+        return file_digest(path)
+    except FileNotFoundError as error:
+        raise InputError(path, "does not exist", if_missing) from error
+    except OSError as error:
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(path, fault, "Check its permissions.") from error
 
 
 def bytes_digest(content: bytes) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TypeVar
 
@@ -37,6 +38,19 @@ def read_edited(path: Path, schema: type[Document], max_bytes: int, remedy: str)
         raise InputError(path, shown_faults(faults), remedy) from error
     except ValueError as error:  # after its kinds above: a number of too many digits
         raise InputError(path, f"is not usable JSON ({error})", "Check the file.") from error
+
+
+def refuse_other_json(
+    path: Path, others: Mapping[str, str], document: str, remedy: Callable[[Path], str]
+) -> None:
+    """InputError where a file of OUT is given that is no document that one edits.
+
+    others: what the files of OUT do that somebody may take for it, by name. document: what is
+    meant, such as `a plan`. remedy: what to give in its place, for a path that is refused.
+    """
+    what = others.get(path.name)
+    if what is not None:
+        raise InputError(path, f"{what}, and is no document of {document}", remedy(path))
 
 
 def shown_faults(faults: list[str]) -> str:

@@ -15,9 +15,8 @@ from veduta.photos.intake.masks import Mask, masks_in, read_mask, with_masks
 from veduta.photos.intake.source import Source
 from veduta.photos.intake.unread import photo_suffixes, unread_files, why_unread
 from veduta.photos.intake.video import Video, video_of
-from veduta.run.digests import file_digest
+from veduta.run.digests import input_digest
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 
 MOST_PHOTOS = 20_000
 _ADD = "Put at least two photos of the same place into it (JPEG, PNG, TIFF, WebP)."
@@ -117,13 +116,9 @@ def _found(folder: Path) -> tuple[tuple[Source, ...], _Pairs, _Pairs, int]:
     paths = _paths(folder)
     for path in paths:
         try:
-            require_file(path, MAX_FILE_BYTES)
-            digest = file_digest(path)
+            digest = input_digest(path, MAX_FILE_BYTES)
         except InputError as error:
             unreadable.append((path.name, error.fault))
-            continue
-        except OSError as error:
-            unreadable.append((path.name, f"cannot be read ({error.strerror})"))
             continue
         first = known.setdefault(digest, path.name)
         if first != path.name:

@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 
 from veduta.imaging.read import MAX_FILE_BYTES, read_image
 from veduta.photos.intake.source import Source
-from veduta.run.digests import file_digest
+from veduta.run.digests import input_digest
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 
 SUFFIX = ".png"
 MOST_NAMED = 5
@@ -41,12 +40,7 @@ def masks_in(folder: Path) -> tuple[Mask, ...]:
     for path in sorted(folder.iterdir()):
         if path.suffix.lower() != SUFFIX or path.name.startswith("."):
             continue
-        try:
-            require_file(path, MAX_FILE_BYTES)
-            found.append(Mask(path, file_digest(path)))
-        except OSError as error:
-            fault = f"cannot be read ({error.strerror})"
-            raise InputError(path, fault, "Check its permissions.") from error
+        found.append(Mask(path, input_digest(path, MAX_FILE_BYTES)))
     if not found:
         remedy = "Name them after the photos: hall.png or hall.jpg.png for hall.jpg."
         raise InputError(folder, "holds no masks (PNG)", remedy)

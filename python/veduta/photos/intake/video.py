@@ -22,9 +22,8 @@ from numpy.typing import NDArray
 
 from veduta.imaging.read import MAX_PIXELS
 from veduta.photos.options import VideoOptions
-from veduta.run.digests import file_digest
+from veduta.run.digests import input_digest
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 from veduta.run.limits import limited
 from veduta.run.progress import StepProgress, no_progress
 
@@ -109,16 +108,9 @@ class Frames:
 
 def video_of(path: Path) -> Video:
     """A file that may be a film; InputError where it is none."""
-    try:
-        require_file(path, LARGEST_BYTES)
-        with path.open("rb") as file:
-            start = file.read(16)
-        digest = file_digest(path)
-    except FileNotFoundError:
-        raise InputError(path, "does not exist", "Check the name of the film.") from None
-    except OSError as error:
-        fault = f"cannot be read ({error.strerror})"
-        raise InputError(path, fault, "Check its permissions.") from error
+    digest = input_digest(path, LARGEST_BYTES, "Check the name of the film.")
+    with path.open("rb") as file:
+        start = file.read(16)
     if not any(start[at:].startswith(magic) for at, magic in _STARTS):
         raise InputError(path, "is not a film that can be read", _REMEDY)
     return Video(path, path.name, digest, limited(_first_size, path, path, _REMEDY))

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -32,9 +31,8 @@ from veduta.photos.world.ground import on_the_feet
 from veduta.photos.world.position_file import PhotoPositions, read_positions
 from veduta.photos.world.register import register
 from veduta.photos.world.rough import roughly
-from veduta.run.digests import file_digest
+from veduta.run.digests import input_digest
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 
 
 @dataclass(frozen=True)
@@ -93,16 +91,7 @@ def read_references(options: ModelOptions) -> References:
 def digests_of(options: ModelOptions) -> list[str]:
     """Of the files that the references lie in; InputError where one cannot be read."""
     given = (options.model, options.gcp, options.positions)
-    return [_digest(path) for path in given if path is not None]
-
-
-def _digest(path: Path) -> str:
-    try:
-        require_file(path)
-        return file_digest(path)
-    except OSError as error:
-        fault = f"cannot be read ({error.strerror})"
-        raise InputError(path, fault, "Check its name and its permissions.") from error
+    return [input_digest(path) for path in given if path is not None]
 
 
 def georeference(
