@@ -81,6 +81,16 @@ def test_level_stepped_and_leaning_outlines_are_none(seed: int) -> None:
         assert find_gable(Skyline(rows.astype(np.int64), 60)) is None
 
 
+@pytest.mark.parametrize("wide", [50, 90, 150])
+@pytest.mark.parametrize("off", [-30, 0, 20])
+def test_a_block_on_a_flat_roof_is_no_gable(wide: int, off: int) -> None:
+    places = np.arange(300)
+    block = np.abs(places - 150 - off) < wide / 2
+    noise = np.random.default_rng(wide).integers(-2, 3, 300)
+    rows = (np.where(block, 40, 110) + noise).astype(np.int64)
+    assert find_gable(Skyline(rows, 40)) is None
+
+
 def test_no_sky_no_gable_and_slates_are_no_wall() -> None:
     outline = _outline(40.0, 150.0)
     assert find_gable(Skyline(outline.rows, outline.level, "no sky")) is None
