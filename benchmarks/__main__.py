@@ -13,6 +13,8 @@ import runpy
 import sys
 from pathlib import Path
 
+from veduta.run.threads import same_sums_anywhere
+
 HERE = Path(__file__).resolve().parent
 
 
@@ -39,6 +41,7 @@ def main() -> int:
         print(f"there is no benchmark {name}: python benchmarks lists them", file=sys.stderr)
         return 2
     path = known[name]
+    same_sums_anywhere()  # as the command does, before anything loads numpy
     sys.argv = [str(path), *sys.argv[2:]]
     sys.path[:0] = [str(folder) for folder in (HERE, HERE / "measuring", path.parent)]
     runpy.run_path(str(path), run_name="__main__")

@@ -54,6 +54,7 @@ pub fn cover(
     if frames == 0 || per_frame == 0 || places == 0 {
         return Ok(found);
     }
+    let blocks = blocks(looked);
     found
         .loss
         .par_iter_mut()
@@ -63,7 +64,7 @@ pub fn cover(
         .for_each(|(frame, ((loss, by_joint), by_deep))| {
             let pose = &joints[frame * per_frame..(frame + 1) * per_frame];
             let shares = &looked.shares[frame * places..(frame + 1) * places];
-            *loss = one_frame(capsules, pose, looked, shares, by_joint, by_deep);
+            *loss = one_frame(capsules, pose, looked, &blocks, shares, by_joint, by_deep);
         });
     Ok(found)
 }
@@ -107,7 +108,49 @@ fn check(
     Ok(frames)
 }
 
-/// A capsule in one frame.
+/// Places are looked at so many together, which one instruction does for several of them.
+const LANES: usize = 16;
+
+type Lanes = [f32; LANES];
+
+/// Places that lie together: the box around them, their weights; what is missing weighs nothing.
+struct Block {
+    x: Lanes,
+    y: Lanes,
+    weights: Lanes,
+    low: [f32; 2],
+    high: [f32; 2],
+}
+
+fn blocks(looked: &Looked<'_>) -> Vec<Block> {
+    let parts = looked
+        .places
+        .chunks(LANES)
+        .zip(looked.weights.chunks(LANES));
+    parts
+        .map(|(places, own)| {
+            let at = |axis: usize, lane: usize| places[lane.min(places.len() - 1)][axis];
+            let least = |axis| places.iter().map(|p| p[axis]).fold(f32::INFINITY, f32::min);
+            let most = |axis| {
+                places
+                    .iter()
+                    .map(|p| p[axis])
+                    .fold(f32::NEG_INFINITY, f32::max)
+            };
+            let mut weights = [0.0; LANES];
+            weights[..own.len()].copy_from_slice(own);
+            Block {
+                x: std::array::from_fn(|lane| at(0, lane)),
+                y: std::array::from_fn(|lane| at(1, lane)),
+                weights,
+                low: [0, 1].map(least),
+                high: [0, 1].map(most),
+            }
+        })
+        .collect()
+}
+
+/// A capsule in one frame, and the box in which it is felt.
 struct Laid {
     from: [f32; 2],
     along: [f32; 2],
@@ -115,17 +158,32 @@ struct Laid {
     first: f32,
     taper: f32,
     reach_square: f32,
+    low: [f32; 2],
+    high: [f32; 2],
 }
 
-/// What a capsule is at a place.
-#[derive(Clone, Copy, Default)]
+/// What a capsule is at the places of a block.
+#[derive(Clone)]
 struct Felt {
     segment: usize,
-    inside: f32,
-    share: f32,
-    away: [f32; 2],
-    /// How its radius at the nearest point changes as that moves along it with each of its ends.
-    thicker: [[f32; 2]; 2],
+    inside: Lanes,
+    share: Lanes,
+    away: [Lanes; 2],
+    /// By how much its radius at the nearest point grows as that moves along it with its second end,
+    /// and, for its length, with its first end the other way.
+    thicker: [Lanes; 2],
+    taper: Lanes,
+}
+
+impl Felt {
+    const NOTHING: Self = Self {
+        segment: 0,
+        inside: [0.0; LANES],
+        share: [0.0; LANES],
+        away: [[0.0; LANES]; 2],
+        thicker: [[0.0; LANES]; 2],
+        taper: [0.0; LANES],
+    };
 }
 
 fn laid(capsules: &Capsules<'_>, pose: &[[f32; 2]], soft: f32) -> Vec<Laid> {
@@ -143,6 +201,8 @@ fn laid(capsules: &Capsules<'_>, pose: &[[f32; 2]], soft: f32) -> Vec<Laid> {
             first,
             taper: last - first,
             reach_square: reach * reach,
+            low: [0, 1].map(|axis| a[axis].min(b[axis]) - reach),
+            high: [0, 1].map(|axis| a[axis].max(b[axis]) + reach),
         }
     })
     .collect()
@@ -152,6 +212,7 @@ fn one_frame(
     capsules: &Capsules<'_>,
     pose: &[[f32; 2]],
     looked: &Looked<'_>,
+    blocks: &[Block],
     shares: &[f32],
     by_joint: &mut [[f64; 2]],
     by_deep: &mut [f64],
@@ -159,36 +220,81 @@ fn one_frame(
     let capsule = laid(capsules, pose, looked.soft);
     let area = shares.iter().sum::<f32>().max(1.0);
     let slope = -2.0 / (looked.soft * area);
-    let mut near = vec![Felt::default(); capsule.len()];
+    let mut near = vec![Felt::NOTHING; capsule.len()];
     let mut loss = 0.0f64;
-    for ((place, &weight), &share) in looked.places.iter().zip(looked.weights).zip(shares) {
-        let (count, empty) = felt(&capsule, *place, looked.soft, &mut near);
-        let error = 1.0 - empty - share;
-        loss += f64::from(weight * error * error);
-        let pull = slope * weight * error * empty;
-        for one in &near[..count] {
-            // By the distance occupancy falls by (1 - occupancy) * inside / soft.
-            let all = one.inside * pull;
-            let late = all * one.share;
-            for (joint, part, thicker) in [
-                (capsules.start[one.segment], all - late, one.thicker[0]),
-                (capsules.end[one.segment], late, one.thicker[1]),
-            ] {
-                by_deep[joint] -= f64::from(part);
-                for axis in 0..2 {
-                    by_joint[joint][axis] -= f64::from(part * one.away[axis] + all * thicker[axis]);
-                }
+    for (block, own) in blocks.iter().zip(shares.chunks(LANES)) {
+        let mut share = [0.0; LANES];
+        share[..own.len()].copy_from_slice(own);
+        let mut empty = [1.0; LANES];
+        let mut count = 0;
+        for (segment, one) in capsule.iter().enumerate() {
+            let apart = (0..2).any(|k| block.high[k] < one.low[k] || block.low[k] > one.high[k]);
+            if !apart {
+                near[count].segment = segment;
+                felt(one, block, looked.soft, &mut near[count], &mut empty);
+                count += 1;
             }
+        }
+        let mut pull = [0.0; LANES];
+        let mut lost = 0.0f32;
+        for lane in 0..LANES {
+            let error = 1.0 - empty[lane] - share[lane];
+            lost += block.weights[lane] * error * error;
+            pull[lane] = slope * block.weights[lane] * error * empty[lane];
+        }
+        loss += f64::from(lost);
+        for one in &near[..count] {
+            pulled(
+                capsules,
+                &capsule[one.segment],
+                one,
+                &pull,
+                by_joint,
+                by_deep,
+            );
         }
     }
     loss / f64::from(area)
 }
 
-/// How many capsules are felt at a place, written to `near`, and how much of it is in none of them.
-fn felt(capsules: &[Laid], place: [f32; 2], soft: f32, near: &mut [Felt]) -> (usize, f32) {
-    let (mut count, mut empty) = (0, 1.0f32);
-    for (segment, one) in capsules.iter().enumerate() {
-        let (mut x, mut y) = (place[0] - one.from[0], place[1] - one.from[1]);
+/// Adds what a capsule's places say of its joints: by the distance occupancy falls by
+/// (1 - occupancy) * inside / soft.
+fn pulled(
+    capsules: &Capsules<'_>,
+    laid: &Laid,
+    one: &Felt,
+    pull: &Lanes,
+    by_joint: &mut [[f64; 2]],
+    by_deep: &mut [f64],
+) {
+    let (mut early, mut late) = ([0.0f32; 3], [0.0f32; 3]);
+    let (mut grown, mut tapered) = ([0.0f32; 2], 0.0f32);
+    for lane in 0..LANES {
+        let all = one.inside[lane] * pull[lane];
+        let second = all * one.share[lane];
+        let first = all - second;
+        let away = [one.away[0][lane], one.away[1][lane], 1.0];
+        for k in 0..3 {
+            early[k] += first * away[k];
+            late[k] += second * away[k];
+        }
+        grown[0] += all * one.thicker[0][lane];
+        grown[1] += all * one.thicker[1][lane];
+        tapered += all * one.taper[lane];
+    }
+    let (start, end) = (capsules.start[one.segment], capsules.end[one.segment]);
+    by_deep[start] -= f64::from(early[2]);
+    by_deep[end] -= f64::from(late[2]);
+    for axis in 0..2 {
+        by_joint[start][axis] -= f64::from(early[axis] - grown[axis] - tapered * laid.along[axis]);
+        by_joint[end][axis] -= f64::from(late[axis] + grown[axis]);
+    }
+}
+
+/// What a capsule is at the places of a block; `empty`, what is in none, loses what is in it.
+fn felt(one: &Laid, block: &Block, soft: f32, found: &mut Felt, empty: &mut Lanes) {
+    for lane in 0..LANES {
+        let (x, y) = (block.x[lane] - one.from[0], block.y[lane] - one.from[1]);
         let free = (x * one.along[0] + y * one.along[1]) * one.per_square;
         let share = free.clamp(0.0, 1.0);
         let taper = if free == share {
@@ -196,28 +302,36 @@ fn felt(capsules: &[Laid], place: [f32; 2], soft: f32, near: &mut [Felt]) -> (us
         } else {
             0.0
         };
-        let late = [0, 1].map(|axis| taper * ([x, y][axis] - 2.0 * share * one.along[axis]));
-        x -= share * one.along[0];
-        y -= share * one.along[1];
-        let square = x * x + y * y;
-        if square > one.reach_square {
-            continue;
-        }
+        let (right, up) = (x - share * one.along[0], y - share * one.along[1]);
+        let square = right * right + up * up;
         let far = square.sqrt() + 1e-6;
         let apart = (far - one.first - share * one.taper) / soft;
-        let inside = 1.0 / (1.0 + apart.clamp(-20.0, 20.0).exp());
-        empty *= 1.0 - inside;
-        near[count] = Felt {
-            segment,
-            inside,
-            share,
-            away: [x / far, y / far],
-            thicker: [
-                [0, 1].map(|axis| -late[axis] - taper * one.along[axis]),
-                late,
-            ],
+        let there = 1.0 / (1.0 + exponential(apart.clamp(-20.0, 20.0)));
+        let inside = if square > one.reach_square {
+            0.0
+        } else {
+            there
         };
-        count += 1;
+        empty[lane] *= 1.0 - inside;
+        found.inside[lane] = inside;
+        found.share[lane] = share;
+        found.away[0][lane] = right / far;
+        found.away[1][lane] = up / far;
+        found.thicker[0][lane] = taper * (x - 2.0 * share * one.along[0]);
+        found.thicker[1][lane] = taper * (y - 2.0 * share * one.along[1]);
+        found.taper[lane] = taper;
     }
-    (count, empty)
+}
+
+/// e^x to a few millionths for x within 80 of 0, in steps that go for many lanes at once: 2^k by the
+/// bits of a number, and a polynomial for the rest (Taylor's, |x ln 2| <= 0.35).
+fn exponential(x: f32) -> f32 {
+    const ROUND: f32 = 12_582_912.0; // 1.5 * 2^23: what is added to it is rounded to whole numbers
+    let turns = x * std::f32::consts::LOG2_E;
+    let rounded = turns + ROUND;
+    let rest = (turns - (rounded - ROUND)) * std::f32::consts::LN_2;
+    let low = 1.0 + rest * (1.0 + rest * (0.5 + rest * (1.0 / 6.0)));
+    let high = rest * rest * rest * rest * (1.0 / 24.0 + rest * (1.0 / 120.0));
+    let power = f32::from_bits((rounded.to_bits() << 23).wrapping_add(127 << 23));
+    (low + high) * power
 }
