@@ -7,7 +7,6 @@ A verb's module has `SUMMARY` (one line) and `run(arguments) -> exit code`.
 from __future__ import annotations
 
 import difflib
-import errno
 import importlib
 import os
 import re
@@ -23,7 +22,7 @@ from typing import NoReturn
 import veduta
 from veduta.cli.plain_words import plain_words
 from veduta.cli.streams import drop_output, outlive_readers
-from veduta.run.errors import InputError, NotFoundError, UnfinishedError, VedutaError
+from veduta.run.errors import NO_ROOM, InputError, NotFoundError, UnfinishedError, VedutaError
 from veduta.run.names import printable
 from veduta.run.threads import same_sums_anywhere
 
@@ -32,7 +31,6 @@ VERBS = (
     "demo", "view", "export",
 )  # fmt: skip
 DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
-NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 STOPPED = "stopped"
 GOES_ON = ": what is finished is on disk, and the same command does the rest"
 INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM

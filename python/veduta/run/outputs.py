@@ -17,7 +17,6 @@ holds it, also by `kill -9`.
 
 from __future__ import annotations
 
-import errno
 import fcntl
 import os
 import shutil
@@ -32,11 +31,9 @@ from pydantic import JsonValue
 
 from veduta.run.atomic import drop_halves, sync_folder, sync_tree
 from veduta.run.digests import file_digest
-from veduta.run.errors import InputError, UnwritableError
+from veduta.run.errors import NO_ROOM, InputError, UnwritableError
 from veduta.run.record import CALL, JOURNAL, PRIVATE, RECORD, Change, Item, RunRecord, load_record
 from veduta.run.report import Failure
-
-_NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 class Standing(Enum):
@@ -237,7 +234,7 @@ def writing_to(out: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        cure = "Make room there" if error.errno in _NO_ROOM else "Mend that"
+        cure = "Make room there" if error.errno in NO_ROOM else "Mend that"
         raise UnwritableError(
             out,
             f"cannot be written ({error.strerror or error})",

@@ -20,7 +20,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection, Pipe
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from veduta.run.errors import VedutaError
+from veduta.run.errors import NO_ROOM, UnwritableError, VedutaError
 from veduta.run.threads import share_cores
 
 A = TypeVar("A")
@@ -107,6 +107,11 @@ def attempt(function: Callable[[Any], Any], argument: Any) -> Answer:
         return Answer(value=function(argument))
     except VedutaError as error:
         return Answer(error=error)
+    except OSError as error:
+        if error.errno not in NO_ROOM:
+            return Answer(traceback=traceback.format_exc())
+        fault = f"cannot be written ({error.strerror})"
+        return Answer(error=UnwritableError("the output", fault, "Make room for it."))
     except Exception:  # noqa: BLE001  a task's bug is the outcome; the caller tells it
         return Answer(traceback=traceback.format_exc())
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import time
@@ -12,7 +13,7 @@ from typing import Any
 import pytest
 
 from veduta.run import pool
-from veduta.run.errors import InputError
+from veduta.run.errors import InputError, UnwritableError
 from veduta.run.pool import Task, run_tasks
 from veduta.run.worker import Worker
 
@@ -25,6 +26,10 @@ def fail(number: int) -> int:
     if number == 1:
         raise InputError("one", "is one", "Give two.")
     return 10 // number
+
+
+def write(number: int) -> None:
+    raise OSError(errno.ENOSPC if number else errno.EIO, "nothing goes there")
 
 
 def die(number: int) -> int:
@@ -77,6 +82,14 @@ def test_errors_come_back_with_their_task(jobs: int) -> None:
     assert isinstance(error, InputError)
     assert (error.subject, error.fault, error.remedy) == ("one", "is one", "Give two.")
     assert "ZeroDivisionError" in (outcomes["0"].traceback or "")
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_full_disk_is_no_bug(jobs: int) -> None:
+    outcomes = {o.task.name: o for o in run_tasks(write, tasks([0, 1]), jobs=jobs)}
+    assert isinstance(outcomes["1"].error, UnwritableError)
+    assert "nothing goes there" in str(outcomes["1"].error)
+    assert "OSError" in (outcomes["0"].traceback or "")
 
 
 def test_a_dead_worker_is_named_and_the_rest_go_on() -> None:
