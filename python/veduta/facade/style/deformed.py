@@ -6,6 +6,10 @@ logarithm is normal, with the deviations that neighbouring storeys and bays of C
 (`benchmarks/facade/real_fronts.py`), and the likeliest such front is taken: coordinates are climbed
 one after the other. What that costs is the logarithm of the density against that of the front as
 drawn, so that a front as the rules have it costs nothing.
+
+Tried and left out: other railings on a floor than the rules draw (none, small ones, a long one, one
+before the middle windows), each floor by itself at a price of 2.2 nats. Of the six fronts of ECP's
+first ten that are not told as Haussmann none was then, as the other styles gained as much.
 """
 
 from __future__ import annotations
