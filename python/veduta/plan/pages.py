@@ -110,8 +110,7 @@ def is_pdf(path: Path) -> bool:
 
 
 def _of_pdf(path: Path, pages: Sequence[int] | None) -> list[Drawing]:
-    with _opened(path) as document:
-        count = len(document)
+    count = limited(page_count, path, path, _SIMPLER)
     if count == 0:
         raise InputError(path, "has no pages", "Export the plan again.")
     for page in pages or ():
@@ -125,6 +124,12 @@ def _of_pdf(path: Path, pages: Sequence[int] | None) -> list[Drawing]:
             "Name the pages with the plans, the lowest storey first, such as --pages 2-3,5.",
         )
     return [Drawing(path, page) for page in pages or range(1, count + 1)]
+
+
+def page_count(path: Path) -> int:
+    """How many pages a PDF has; to be called within limits, as `rendered` is."""
+    with _opened(path) as document:
+        return len(document)
 
 
 def rendered(drawing: Drawing) -> Scan:

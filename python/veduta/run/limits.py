@@ -13,6 +13,7 @@ import importlib
 import os
 import resource
 import threading
+import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,7 +22,7 @@ from typing import Any, TypeVar
 
 from veduta.run.errors import InputError
 from veduta.run.threads import available_cores
-from veduta.run.worker import Answer, Worker, end_workers
+from veduta.run.worker import Answer, Told, Worker, end_workers
 
 A = TypeVar("A")
 T = TypeVar("T")
@@ -59,19 +60,22 @@ def limited(
     subject: str | Path,
     remedy: str,
     limits: Limits | None = None,
+    hear: Callable[[float], None] | None = None,
 ) -> T:
     """What a function of a module's top level gives for an argument, in a process of its own.
 
     Both must be such that they can be sent there. InputError of the function passes through; where
     it takes more memory or time, or ends the process, InputError names the subject. The process
-    stays for the next call: to start one takes as long as to read a few files.
+    stays for the next call: to start one takes as long as to read a few files. `hear` is called
+    with the share of the work that is done, as often as the function calls `run.worker.tell`; what
+    it raises (Ctrl-C) ends the work.
     """
     allowed = limits or Limits()
     request = _Request(
         function.__module__, function.__qualname__, argument, allowed, str(Path.cwd())
     )
     with _one_at_a_time:
-        value: T = _asked(request, subject, remedy)
+        value: T = _asked(request, subject, remedy, hear)
     return value
 
 
@@ -80,16 +84,23 @@ _kept: dict[int, Worker] = {}
 """The process that reads, by the process that asks it: none is used by another's child."""
 
 
-def _asked(request: _Request, subject: str | Path, remedy: str) -> Any:
+def _asked(
+    request: _Request, subject: str | Path, remedy: str, hear: Callable[[float], None] | None
+) -> Any:
     allowed = request.limits
     worker = _kept.pop(os.getpid(), None)
     if worker is None or worker.process.poll() is not None:
         worker = Worker(within, available_cores())
     try:
         worker.send(request)
-        if not worker.pipe.poll(5 * allowed.seconds):
-            raise InputError(subject, f"takes more than {allowed.seconds} s to read", remedy)
-        answer = worker.receive()
+        ends = time.monotonic() + 5 * allowed.seconds
+        answer: Answer | Told = Told(0.0)
+        while isinstance(answer, Told):
+            if not worker.pipe.poll(max(0.0, ends - time.monotonic())):
+                raise InputError(subject, f"takes more than {allowed.seconds} s to read", remedy)
+            answer = worker.hear()
+            if hear is not None and isinstance(answer, Told):
+                hear(answer.share)
     except BaseException:  # also Ctrl-C: what it is at is not waited for
         end_workers([worker])
         raise

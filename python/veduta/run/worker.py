@@ -41,6 +41,22 @@ class Answer(NamedTuple):
         return self.error is None and self.traceback is None and self.crash is None
 
 
+class Told(NamedTuple):
+    """How far a call is that has not ended: the share from 0 to 1."""
+
+    share: float
+
+
+_asking: list[Connection] = []
+"""In a worker: the way to the process that waits for its answer."""
+
+
+def tell(share: float) -> None:
+    """Say how far the call is to who listens by `limited(..., hear=...)`; else nothing is done."""
+    for connection in _asking:
+        connection.send(Told(share))
+
+
 class Named(Generic[A, T]):
     """A function of a module's top level by its name; the module is imported where it is called."""
 
@@ -80,8 +96,15 @@ class Worker:
 
     def receive(self) -> Answer:
         """Wait for its answer; the pipe of a dead one is at its end, perhaps within an answer."""
+        said = self.hear()
+        while isinstance(said, Told):
+            said = self.hear()
+        return said
+
+    def hear(self) -> Answer | Told:
+        """Wait for the next that it says: how far it is, or its answer."""
         try:
-            answer: Answer = self.pipe.recv()
+            answer: Answer | Told = self.pipe.recv()
         except (EOFError, OSError):
             return Answer(crash=_cause_of_death(self.process.wait()))
         return answer
@@ -131,6 +154,7 @@ def work(pipe: int, life: int) -> None:
     threading.Thread(target=_end_with_parent, args=(life,), daemon=True).start()
     connection = Connection(pipe)
     module, name, threads = connection.recv()
+    _asking.append(connection)
     share_cores(threads)  # before the import that loads the libraries
     function = getattr(importlib.import_module(module), name)
     # Who has no more to give, or is gone before there is an answer, ends this process's work.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 from veduta.run.errors import InputError
+from veduta.run.worker import tell
 
 
 def reader_and_folder(_: object) -> tuple[int, str]:
@@ -13,6 +14,12 @@ def reader_and_folder(_: object) -> tuple[int, str]:
 
 def doubled(number: int) -> int:
     return 2 * number
+
+
+def telling(shares: list[float]) -> int:
+    for share in shares:
+        tell(share)
+    return len(shares)
 
 
 def hungry(megabytes: int) -> int:

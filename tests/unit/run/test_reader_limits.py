@@ -14,6 +14,7 @@ from reader_samples import (
     hungry,
     reader_and_folder,
     refusing,
+    telling,
 )
 
 from veduta.run.errors import InputError
@@ -25,6 +26,20 @@ FEW = Limits(memory_mb=200, seconds=2)
 def test_what_a_reader_gives_comes_back() -> None:
     assert limited(doubled, 21, "a.pdf", "Mend it.", FEW) == 42
     assert limited(hungry, 50, "a.pdf", "Mend it.", FEW) == 50_000_000
+
+
+def test_who_asks_hears_how_far_a_reader_is() -> None:
+    heard: list[float] = []
+    assert limited(telling, [0.25, 0.5], "a.mp4", "Mend it.", FEW, heard.append) == 2
+    assert heard == [0.25, 0.5]
+    assert limited(telling, [0.75], "a.mp4", "Mend it.", FEW) == 1
+
+    def interrupted(_: float) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        limited(telling, [0.25, 0.5], "a.mp4", "Mend it.", FEW, interrupted)
+    assert limited(doubled, 2, "a.mp4", "Mend it.", FEW) == 4
 
 
 def test_its_own_errors_pass_through() -> None:

@@ -24,8 +24,9 @@ from veduta.imaging.read import MAX_PIXELS
 from veduta.photos.options import VideoOptions
 from veduta.run.digests import input_digest
 from veduta.run.errors import InputError
-from veduta.run.limits import limited
+from veduta.run.limits import Limits, limited
 from veduta.run.progress import StepProgress, no_progress
+from veduta.run.worker import tell
 
 LARGEST_BYTES = 64_000_000_000
 MOST_FRAMES = 400_000
@@ -42,6 +43,8 @@ FEW = 20
 """Stretches of equal time where motion makes fewer: whoever walks around something keeps it in the
 picture, which hardly moves."""
 JPEG_QUALITY = 95
+_MOST_MB = 4000
+"""Memory that decoding may take: some frames at once, of at most `MAX_PIXELS`."""
 FEWEST_TRACKED = 0.5
 _CORNERS = 150
 _STARTS = (
@@ -131,29 +134,72 @@ def write_frames(
     """Write the sharpest frame of each stretch into a folder, as JPEG; InputError where none."""
     look = look_through(video, progress)
     chosen = choose_frames(look, options)
-    paths = []
-    wanted = set(chosen.tolist())
-    with _opened(video.path) as film:
-        for number in range(int(chosen.max()) + 1):
-            progress("video", 0.5 + 0.5 * number / (int(chosen.max()) + 1))
-            if not film.grab():
-                break
-            if number in wanted:
-                paths.append(folder / video.frame_name(number))
-                _write(_frame(video.path, film), paths[-1])
-    if len(paths) != len(chosen):
+    paths = tuple(folder / video.frame_name(int(number)) for number in chosen)
+    taken = _Taken(video.path, chosen, paths)
+    limits = Limits(_MOST_MB, _longest_s(video.path, look.read))
+    written = limited(
+        _write_chosen, taken, video.path, _REMEDY, limits,
+        lambda share: progress("video", 0.5 + 0.5 * share),
+    )  # fmt: skip
+    if written != len(chosen):
         raise InputError(video.path, "reads differently a second time", _REMEDY)
-    return Frames(tuple(paths), _notes(video, look, chosen, options))
+    return Frames(paths, _notes(video, look, chosen, options))
 
 
 def look_through(video: Video, progress: StepProgress = no_progress) -> Look:
-    """Sharpness and motion along a film."""
+    """Sharpness and motion along a film, which is read in a process of its own."""
+    frames = limited(_frames_told, video.path, video.path, _REMEDY)
+    limits = Limits(_MOST_MB, _longest_s(video.path, frames))
+    return limited(
+        _looked_through, video.path, video.path, _REMEDY, limits,
+        lambda share: progress("video", 0.5 * share),
+    )  # fmt: skip
+
+
+def _longest_s(path: Path, frames: int) -> int:
+    """Seconds of one core that a film may take: more than a slow one does, by its size."""
+    size_mb = path.stat().st_size / 1e6
+    return int(120 + 10 * size_mb + 0.1 * min(frames, MOST_FRAMES))
+
+
+def _frames_told(path: Path) -> int:
+    """How many frames a film says that it has; 0 where it says nothing."""
+    with _opened(path) as film:
+        return max(0, int(film.get(cv2.CAP_PROP_FRAME_COUNT)))
+
+
+@dataclass(frozen=True)
+class _Taken:
+    """The frames of a film that are to be written, by number (n,), and the file of each."""
+
+    film: Path
+    numbers: NDArray[np.int64]
+    files: tuple[Path, ...]
+
+
+def _write_chosen(taken: _Taken) -> int:
+    """Write the frames that were chosen; how many there were. Called within limits."""
+    files = dict(zip(taken.numbers.tolist(), taken.files, strict=True))
+    last, written = int(taken.numbers.max()), 0
+    with _opened(taken.film) as film:
+        for number in range(last + 1):
+            if not film.grab():
+                break
+            if number in files:
+                tell(number / (last + 1))
+                _write(_frame(taken.film, film), files[number])
+                written += 1
+    return written
+
+
+def _looked_through(path: Path) -> Look:
+    """Called within limits."""
     numbers: list[int] = []
     times: list[float] = []
     sharpness: list[float] = []
     stretches: list[int] = []
     begun: NDArray[np.uint8] | None = None
-    with _opened(video.path) as film:
+    with _opened(path) as film:
         expected = max(0, int(film.get(cv2.CAP_PROP_FRAME_COUNT)))
         rate = film.get(cv2.CAP_PROP_FPS) or 25.0
         read = 0
@@ -162,8 +208,8 @@ def look_through(video: Video, progress: StepProgress = no_progress) -> Look:
             read += 1
             if times and time_s < times[-1] + 1.0 / LOOKS_PER_S - 1e-3:
                 continue
-            progress("video", 0.5 * min(1.0, read / max(1, expected)))
-            grey = cv2.cvtColor(_frame(video.path, film), cv2.COLOR_BGR2GRAY).astype(np.uint8)
+            tell(min(1.0, read / max(1, expected)))
+            grey = cv2.cvtColor(_frame(path, film), cv2.COLOR_BGR2GRAY).astype(np.uint8)
             small = _shrunk(grey, SMALL_PX)
             ended = begun is not None and motion_between(begun, small) >= MOTION
             if begun is None or ended:
