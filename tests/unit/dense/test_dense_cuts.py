@@ -80,3 +80,6 @@ def test_rags_that_hang_loose_are_dropped_and_two_walls_are_not() -> None:
     assert left.dropped == 1
     assert np.array_equal(left.points_m, points[:50])
     assert np.array_equal(left.triangles, triangles[:64])
+    large = SurfaceParameters(least_share=0.02, least_triangles=1, large_triangles=1)
+    every = _without_crumbs(RawSurface(points, triangles.astype(np.uint32), 0.5), large)
+    assert every.dropped == 0

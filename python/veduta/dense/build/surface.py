@@ -19,15 +19,17 @@ class SurfaceParameters:
     """voxel_px: side of a voxel where none is given, in pixels at the middle depth. truncation:
     voxels before and behind a surface. least_weight: sum of confidences that a voxel must have.
     coarser: by which voxels grow where memory does not suffice. least_share: parts of the mesh with
-    fewer triangles (of all) are dropped, and with fewer than least_triangles.
+    fewer triangles (of all) are dropped, unless they have as many as large_triangles, and always with
+    fewer than least_triangles.
     """
 
     voxel_px: float = 1.4
     truncation: float = 5.0
     least_weight: float = 0.6
     coarser: float = 1.4
-    least_share: float = 0.006
+    least_share: float = 0.01
     least_triangles: int = 60
+    large_triangles: int = 40_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +106,8 @@ def _without_crumbs(surface: RawSurface, parameters: SurfaceParameters) -> RawSu
         reason = "no surface is seen by enough photos at one spot"
         raise NotFoundError("a surface", reason, "Give more photos, or --agree 1.")
     sizes = part_sizes(faces, len(surface.points_m))
-    least = max(parameters.least_triangles, parameters.least_share * len(faces))
+    share = min(parameters.least_share * len(faces), parameters.large_triangles)
+    least = max(parameters.least_triangles, share)
     kept = faces[sizes >= min(least, sizes.max())]
     points, triangles = compact(surface.points_m, kept)
     return RawSurface(points, triangles, surface.voxel_m, len(faces) - len(kept))
