@@ -26,7 +26,7 @@ from synthetic_truth import FOCAL, HEIGHT, WIDTH, Floats, finer, ours, peers, sc
 from veduta.synthetic.camera import Camera
 
 PHOTOS, AWAY_M = 9, 3.0
-REACH_M = (1.5, 6.0)
+REACH_M = (2.0, 5.5)
 SAME_M = 0.01
 
 
@@ -69,7 +69,7 @@ def measured(seed: int, peer: Path | None) -> list[Row]:
         makers: dict[str, Callable[[], Floats]] = {
             "veduta dense": lambda: ours(folder, folder.parent / "a", "patchmatch"),
             "veduta dense --method linking": lambda: ours(folder, folder.parent / "b", "linking"),
-            "OpenCV StereoSGBM": lambda: sgbm_points(cameras, photos, REACH_M),
+            "OpenCV StereoSGBM": lambda: sgbm_points(cameras, photos, REACH_M, alpha=-1.0),
         }
         if peer is not None:
             makers["pyarchinit-photogrammetry-core"] = lambda: peers(

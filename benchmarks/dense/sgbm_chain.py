@@ -15,10 +15,14 @@ def sgbm_points(
     cameras: list[Camera],
     photos: list[NDArray[np.uint8]],
     reach_m: tuple[float, float] = (4.0, 14.0),
+    alpha: float = 0.0,
 ) -> Floats:
-    """(n, 3) points of all pairs of neighbours, each way back within a pixel. reach_m: depths."""
+    """(n, 3) points of all pairs of neighbours, each way back within a pixel. reach_m: depths.
+
+    alpha: `stereoRectify`'s: 0 enlarges until no border shows, -1 leaves the size.
+    """
     two = zip(cameras[:-1], cameras[1:], photos[:-1], photos[1:], strict=True)
-    return np.concatenate([_pair(*one, reach_m) for one in two])
+    return np.concatenate([_pair(*one, reach_m, alpha) for one in two])
 
 
 def _pair(
@@ -27,6 +31,7 @@ def _pair(
     one: NDArray[np.uint8],
     other: NDArray[np.uint8],
     reach_m: tuple[float, float],
+    alpha: float,
 ) -> Floats:
     relative = right.cam_from_world @ np.linalg.inv(left.cam_from_world)
     size = (left.width_px, left.height_px)
@@ -42,7 +47,7 @@ def _pair(
         relative[:3, :3],
         relative[:3, 3:],
         flags=cv2.CALIB_ZERO_DISPARITY,
-        alpha=0,
+        alpha=alpha,
     )
     r1, r2, p1, p2, q = turns[:5]
     flat = []
