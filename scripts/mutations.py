@@ -20,7 +20,8 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-sys.path[:0] = [str(ROOT / name) for name in ("benchmarks", "tests/unit", "tests/unit/formats")]
+_TESTS = [f"tests/unit{name}" for name in ("", "/formats", "/cameras")]
+sys.path[:0] = [str(ROOT / name) for name in ("benchmarks", *_TESTS)]
 MOST_MB = 500
 
 

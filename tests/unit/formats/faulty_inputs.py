@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from faulty_records import RECORDS
 from PIL import Image
 from place_sample import sample_place
 from sample_document import sample_document
@@ -211,4 +212,5 @@ CLASSES: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object]]] = {
     "GeoTIFF surface": (_grid, lambda path: read_surface_model(path, 2.0)),
     "GeoTIFF ground": (_grid, lambda path: ground_of(path, 1.0)),
     "MATLAB": (_mat, read_mat),
+    **RECORDS,
 }

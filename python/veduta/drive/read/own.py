@@ -167,7 +167,7 @@ def read_toml(path: Path) -> DriveLog:
         raise InputError(path, "is far too large", "It describes a log; scans are in tables.")
     try:
         return DriveLog.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(path, f"is no TOML: {error}", "Mend it.") from error
     except ValidationError as error:
         first = error.errors()[0]

@@ -37,7 +37,7 @@ def read_toml(path: Path, text: str) -> RigCalibration:
     """The rig of a walk.toml; InputError with the field that is wrong."""
     try:
         said = RigToml.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InputError(path, f"is no TOML ({error})", _REMEDY) from error
     except ValidationError as error:
         first = error.errors()[0]
