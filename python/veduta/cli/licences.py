@@ -10,7 +10,9 @@ OWN = "veduta"
 STUDIO = Path(__file__).resolve().parents[1] / "studio" / "static" / "licences.txt"
 NOTES = {
     "ifcopenshell": "writes the IFC files of `veduta plan`; LGPL: it is used as it is, and may be"
-    " replaced by another version",
+    " replaced by another version; its wheels bring Open CASCADE (LGPL 2.1 with an exception), GMP"
+    " and MPFR (LGPL), modules made with CGAL (LGPL and GPL; Veduta loads none of them),"
+    " OpenCOLLADA, RocksDB, libxml2, PCRE, Boost, Manifold and wgpu",
     "pi-heif": "reads HEIC; its wheels bring libheif and libde265 (LGPL)",
     "pyogrio": "its wheels bring GDAL, GEOS, PROJ and SQLite",
     "rasterio": "its wheels bring GDAL, PROJ and others",

@@ -4,6 +4,10 @@ OBJ is y-up by custom: (x, y, z) of the place becomes (x, z, -y) here and nowher
 object (`o`), a feature a group (`g`), a look a material (`usemtl`); metres from the place's origin,
 which the first lines tell with its CRS. What shines, moves or is seen through beyond its opacity
 has no word in OBJ.
+
+Written by hand, where trimesh could: a place's parts are taken one by one from the disk and written
+at once, while trimesh wants a scene whole in memory; and it has no groups for features, merges
+materials of a name, and writes textures by names of its own.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""A place as binary STL: triangles alone, z up, in metres (STL itself knows no unit)."""
+"""A place as binary STL: triangles alone, z up, in metres (STL itself knows no unit).
+
+Written by hand: a record of fifty bytes a triangle, part by part, so that a town needs the memory
+of its largest part; trimesh would hold all of it.
+"""
 
 from __future__ import annotations
 
