@@ -122,10 +122,15 @@ test-python: setup $(CJVAL)
 	@export CHROMIUM=$$(scripts/need chromium || true); $(STAGE) "pytest" $(PY) -m pytest
 
 # Since main, or make test-changed SINCE=HEAD~3. `make test` is what counts; this is for on the way.
-test-changed: setup ## the Python tests that a change can touch
+test-changed: setup ## the tests that a change can touch, of the three languages
+	@crates=$$($(PY) scripts/changed_tests.py $(or $(SINCE),main) rust); \
+	if [ -n "$$crates" ]; then \
+		$(STAGE) "cargo test" cargo test --quiet --locked $$(printf -- '-p %s ' $$crates); fi
 	@files=$$($(PY) scripts/changed_tests.py $(or $(SINCE),main)); \
 	if [ -n "$$files" ]; then $(STAGE) "pytest" $(PY) -m pytest $$files; \
 	else echo "No Python test is touched."; fi
+	@files=$$($(PY) scripts/changed_tests.py $(or $(SINCE),main) studio); \
+	if [ -n "$$files" ]; then $(MAKE) --no-print-directory test-studio; fi
 
 test-studio: $(NODE_PACKAGES)
 	@cd studio && ../$(STAGE) "vitest" npm run --silent test

@@ -1,8 +1,10 @@
-"""Prints the test files that a change can touch: `scripts/changed_tests.py [SINCE]`.
+"""Prints what a change touches: `scripts/changed_tests.py [SINCE] [python|rust|studio]`.
 
 SINCE is what the working tree is compared with (the branch `main` where it is not given). A Python
 file touches the tests that import it, or whatever imports it; a file that is no module (a rule
-file, a crate, a set of settings) touches all of its package's, or all there are.
+file, a crate, a set of settings) touches all of its package's, or all there are. A file of a crate
+touches that crate's own tests (`rust` prints their names), one of the studio its unit tests
+(`studio` prints the files).
 """
 
 from __future__ import annotations
@@ -65,6 +67,18 @@ def touched_tests(files: Iterable[str]) -> list[str]:
     return [path.relative_to(ROOT).as_posix() for path in sorted(chosen)]
 
 
+def touched_crates(files: Iterable[str]) -> list[str]:
+    """The crates with a change; but for the one that Python imports, which has no tests."""
+    parts = [name.split("/") for name in files if name.startswith("crates/")]
+    names = {part[1] for part in parts if len(part) > 2} - {"veduta-py"}
+    return sorted(name for name in names if (ROOT / "crates" / name / "Cargo.toml").is_file())
+
+
+def touched_studio(files: Iterable[str]) -> list[str]:
+    """The files of the studio that have changed."""
+    return [name for name in files if name.startswith("studio/")]
+
+
 def _module_of(name: str, modules: Iterable[str]) -> str:
     """The module of a file; of one that is none, the nearest package around it."""
     dotted = name.removeprefix("python/").removesuffix(".py").replace("/", ".")
@@ -96,4 +110,6 @@ def _imports(path: Path) -> set[str]:
 
 if __name__ == "__main__":
     since = sys.argv[1] if len(sys.argv) > 1 else "main"
-    print("\n".join(touched_tests(changed_files(since))))
+    kind = sys.argv[2] if len(sys.argv) > 2 else "python"
+    kinds = {"python": touched_tests, "rust": touched_crates, "studio": touched_studio}
+    print("\n".join(kinds[kind](changed_files(since))))

@@ -45,3 +45,17 @@ def test_a_rule_file_touches_its_package_and_a_lock_everything(script: ModuleTyp
 def test_a_test_touches_itself_alone(script: ModuleType) -> None:
     name = "tests/unit/test_changed_tests.py"
     assert script.touched_tests([name]) == [name]
+
+
+def test_a_crate_touches_its_own_tests_and_the_studio_its(script: ModuleType) -> None:
+    files = [
+        "Cargo.lock",
+        "crates/veduta-py/src/lib.rs",
+        "crates/veduta-tiles/src/lib.rs",
+        "crates/veduta-tiles/tests/a.rs",
+        "crates/that-was-removed/src/lib.rs",
+        "studio/src/app/studio.ts",
+    ]
+    assert script.touched_crates(files) == ["veduta-tiles"]
+    assert script.touched_studio(files) == ["studio/src/app/studio.ts"]
+    assert script.touched_crates(["studio/src/app/studio.ts"]) == []
