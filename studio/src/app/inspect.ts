@@ -16,8 +16,8 @@ import type { ViewerStats } from "../three/viewer.ts";
 import type { Session } from "./session.ts";
 
 export interface Inspection {
-  /** Mode, colours, hidden classes. */
-  state(): { mode: string; colouring: string; hidden: string[]; flying: boolean };
+  /** Mode, colours, hidden classes, the hour (0..24), and layers that are off. */
+  state(): { mode: string; colouring: string; hidden: string[]; hour: number; off: string[]; flying: boolean };
   camera(): { eye: Vec3; direction: Vec3; fov_deg: number };
   walk(): { feet: Vec3; velocity: Vec3; grounded: boolean; blocked: boolean };
   /** The doors of the place: the feature, where it is, and how far it is open (0..1). */
@@ -66,6 +66,8 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
       mode: store.value.mode,
       colouring: store.value.colouring,
       hidden: [...store.value.hidden],
+      hour: store.value.hour,
+      off: [...store.value.off],
       flying: viewer.isFlying,
     }),
     camera: () => viewer.pose,

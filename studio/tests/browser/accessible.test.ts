@@ -1,8 +1,6 @@
 /** The page for those who use a keyboard or a screen reader: axe finds nothing in any of its states. */
-import { mkdirSync, readFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { AxeResults } from "axe-core";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { addAnimal } from "../fixture/animal.mjs";
@@ -10,11 +8,10 @@ import { makePlace } from "../fixture/make-place.mjs";
 import { addPhotos, editPlace } from "../fixture/photos.mjs";
 import { makeRooms } from "../fixture/rooms.mjs";
 import { addWalk } from "../fixture/walk.mjs";
+import { findings, foundAtOnce } from "./axe.ts";
 import { launch, MISSING } from "./chromium.ts";
-import { open, settled } from "./page.ts";
+import { loseContext, open } from "./page.ts";
 import { makeSite, type Site } from "./site.ts";
-
-const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 function addTour(folder: string): void {
   const stretches = [{ room: null, name: "The street", start_s: 0, end_s: 20 }];
@@ -22,12 +19,11 @@ function addTour(folder: string): void {
   editPlace(folder, (place) => Object.assign(place, { tours: [tour] }));
 }
 
-/** What axe finds, each with the elements that it is found on. */
-async function findings(page: Page): Promise<string[]> {
-  await settled(page);
-  await page.evaluate(AXE);
-  const { violations } = await page.evaluate<AxeResults>("axe.run()");
-  return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
+/** What was recorded is here what was made of it. */
+function keepRecord(folder: string): void {
+  editPlace(folder, ({ parts }) => {
+    for (const part of parts) part.raw = part.model;
+  });
 }
 
 describe.skipIf(MISSING !== null)("axe", () => {
@@ -39,7 +35,7 @@ describe.skipIf(MISSING !== null)("axe", () => {
     [site, browser] = [await makeSite(2), await launch()];
     addPhotos(site.folder, [{ eye: [5, -14, 1.7], target: [5, 0, 5] }]);
     makeRooms(join(site.folder, "rooms"));
-    for (const [name, add] of [["animal", addAnimal], ["stroll", addWalk], ["tour", addTour]] as const) {
+    for (const [name, add] of [["animal", addAnimal], ["stroll", addWalk], ["tour", addTour], ["recorded", keepRecord]] as const) {
       const folder = join(site.folder, name);
       mkdirSync(folder);
       makePlace(folder);
@@ -108,11 +104,31 @@ describe.skipIf(MISSING !== null)("axe", () => {
   });
 
   it("finds nothing by night, in the colours of the classes and of what is known", async () => {
-    const { page: night } = await open(browser, `${site.origin}/#hour=23&colour=class`);
-    expect(await findings(night)).toEqual([]);
-    await night.keyboard.press("p");
-    expect(await findings(night)).toEqual([]);
-    await night.context().close();
+    for (const colours of ["class", "provenance"]) {
+      const { page: night } = await open(browser, `${site.origin}/#mode=orbit&hour=23&colours=${colours}`);
+      expect(await night.evaluate(() => window.veduta?.state())).toMatchObject({ hour: 23, colouring: colours });
+      expect(await findings(night), colours).toEqual([]);
+      await night.context().close();
+    }
+  });
+
+  it("finds nothing while what was recorded is compared with the model", async () => {
+    const { page: other } = await open(browser, `${site.origin}/?place=recorded/`);
+    await other.getByRole("switch", { name: "As recorded" }).click();
+    await other.getByRole("slider", { name: "as recorded" }).waitFor();
+    expect(await findings(other)).toEqual([]);
+    await other.context().close();
+  });
+
+  it("finds nothing while the graphics card is taken away, nor when it is back", async () => {
+    const { page: other } = await open(browser, `${site.origin}/`);
+    const giveBack = await loseContext(other);
+    await other.getByText("took the graphics card away").waitFor();
+    expect(await findings(other)).toEqual([]);
+    await giveBack();
+    await other.getByText("The picture is back").waitFor();
+    expect(await findings(other)).toEqual([]);
+    await other.context().close();
   });
 
   it("finds nothing where something has not come", async () => {
@@ -137,9 +153,7 @@ describe.skipIf(MISSING !== null)("axe", () => {
     const without = await launch({ webgl: false });
     for (const path of ["", "?place=stroll/"]) {
       const { page: plain } = await open(without, `${site.origin}/${path}`);
-      await plain.evaluate(AXE);
-      const { violations } = await plain.evaluate<AxeResults>("axe.run()");
-      expect(violations.map(({ id }) => id)).toEqual([]);
+      expect(await foundAtOnce(plain)).toEqual([]);
     }
     await without.close();
   });
@@ -149,9 +163,7 @@ describe.skipIf(MISSING !== null)("axe", () => {
       place.version = "something else";
     });
     const { page: broken } = await open(browser, `${site.origin}/`);
-    await broken.evaluate(AXE);
-    const { violations } = await broken.evaluate<AxeResults>("axe.run()");
-    expect(violations.map(({ id }) => id)).toEqual([]);
+    expect(await foundAtOnce(broken)).toEqual([]);
     await broken.context().close();
   });
 });

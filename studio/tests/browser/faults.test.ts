@@ -4,7 +4,7 @@ import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { launch, MISSING } from "./chromium.ts";
-import { look, open, settled, stateOf } from "./page.ts";
+import { look, loseContext, open, settled, stateOf } from "./page.ts";
 import { makeSite, type Site } from "./site.ts";
 
 const HOUSES = 7;
@@ -91,13 +91,10 @@ describe.skipIf(MISSING !== null)("a place of which something is missing", () =>
     await calm(page);
     const middle = { x: 480, y: 200, width: 400, height: 300 };
     const before = await look(page, middle);
-    await page.evaluate(() => {
-      const canvas = document.querySelector("veduta-studio")?.shadowRoot?.querySelector("canvas");
-      const context = canvas?.getContext("webgl2")?.getExtension("WEBGL_lose_context");
-      context?.loseContext();
-      setTimeout(() => context?.restoreContext(), 500);
-    });
-    await page.waitForTimeout(2500);
+    const giveBack = await loseContext(page);
+    await page.waitForTimeout(500);
+    await giveBack();
+    await page.waitForTimeout(2000);
     expect(await stateOf(page)).toBe("ready");
     expect(await page.getByRole("alert").count()).toBe(0);
     const after = await look(page, middle);

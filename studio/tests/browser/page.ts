@@ -67,6 +67,18 @@ export async function settled(page: Page): Promise<void> {
   );
 }
 
+/** Takes the graphics card away from the page; the result gives it back. */
+export async function loseContext(page: Page): Promise<() => Promise<void>> {
+  const taker = await page.evaluateHandle(() => {
+    const canvas = document.querySelector("veduta-studio")?.shadowRoot?.querySelector("canvas");
+    const found = canvas?.getContext("webgl2")?.getExtension("WEBGL_lose_context");
+    if (found === null || found === undefined) throw new Error("there is no card to take away");
+    found.loseContext();
+    return found;
+  });
+  return async () => await taker.evaluate((one) => one.restoreContext());
+}
+
 export interface Look {
   /** Standard deviation of the luminance, 0..255. */
   readonly spread: number;

@@ -5,6 +5,7 @@
 import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import type { Vec3 } from "../../src/core/vector.ts";
+import { findings } from "./axe.ts";
 import { launch, MISSING } from "./chromium.ts";
 import { open, picked, project, settled, stateOf, walkState } from "./page.ts";
 
@@ -80,6 +81,7 @@ describe.skipIf(MISSING !== null || url === undefined)("a town of tiles", () => 
       page.on("response", (answer) => fetched.add(new URL(answer.url()).pathname));
       expect(await stateOf(page)).toBe("ready");
       expect(await page.evaluate(() => window.veduta?.stats().tiles)).toBeGreaterThan(0);
+      expect(await findings(page)).toEqual([]);
       await page.keyboard.press("2");
       await settled(page);
 
