@@ -254,16 +254,22 @@ function readBounds(value: unknown): Box | null {
   return isPoint(min) && isPoint(max) ? { min, max } : null;
 }
 
-/** The corners of the boxes (around nearly all of each) of all parts but the ground and what is around it, world frame: what one comes to see. */
+/**
+ * The corners of the boxes (around nearly all of each) of all parts but the ground and what is around it, world
+ * frame: what one comes to see. Of a place that is nothing but ground, such as a map, those of the ground.
+ */
 export function cornersOfPlace(place: Place): Vec3[] {
   const alive = new Set(place.animals.map(({ part }) => part));
-  const still = place.parts.flatMap(({ bounds, core, isGround, isBackdrop, worldFromPart }, index) =>
-    bounds === null || isGround || isBackdrop || alive.has(index)
-      ? []
-      : cornersOf(core ?? bounds).map((corner) => worldPoint(worldFromPart, corner)),
-  );
+  const corners = (isWanted: (part: Part) => boolean): Vec3[] =>
+    place.parts.flatMap((part, index) => {
+      const { bounds, core, isBackdrop, worldFromPart } = part;
+      if (bounds === null || isBackdrop || alive.has(index) || !isWanted(part)) return [];
+      return cornersOf(core ?? bounds).map((corner) => worldPoint(worldFromPart, corner));
+    });
+  const built = corners(({ isGround }) => !isGround);
   // Of an animal one sees what is around its path.
-  return [...still, ...place.animals.flatMap(aroundPath)];
+  const seen = [...built, ...place.animals.flatMap(aroundPath)];
+  return seen.length > 0 ? seen : corners(({ isGround }) => isGround);
 }
 
 function aroundPath({ path, length_m }: Animal): Vec3[] {

@@ -82,6 +82,11 @@ describe("reading a place", () => {
     expect(cornersOfPlace(readPlace(manifest({}, { bounds: { min: [0, 0], max: "far" } }), "place.json"))).toEqual([]);
   });
 
+  it("is its ground where it is nothing else", () => {
+    const ground = readPlace(manifest({}, { ground: true }), "place.json");
+    expect(cornersOfPlace(ground)).toEqual(cornersOfPlace(readPlace(manifest(), "place.json")));
+  });
+
   it("is looked at where nearly all of it is, not where its strays are", () => {
     const strewn = { bounds: { min: [-90, -90, -90], max: [90, 90, 90] }, core: { min: [0, 0, 0], max: [2, 2, 2] } };
     const corners = cornersOfPlace(readPlace(manifest({}, strewn), "place.json"));
