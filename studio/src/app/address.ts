@@ -1,7 +1,8 @@
 /** The page's address says what one sees: it can be shared, loaded again, and gone back from. */
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
-import { readView, type View, writeView } from "../core/view-link.ts";
+import { readView, writeView } from "../core/view-link.ts";
+import type { Commands } from "./commands.ts";
 import type { Session } from "./session.ts";
 
 /** The address follows when the view has been still for so long. */
@@ -9,17 +10,23 @@ const STILL_MS = 400;
 
 export class Address {
   readonly #session: Session;
+  readonly #commands: Commands;
   readonly #store: Store<StudioState>;
   #timer = 0;
   #written = "";
   #isStep = false;
+  /** The surface that a link chooses and that has not come yet. */
+  #awaited: string | null = null;
 
-  constructor(session: Session, store: Store<StudioState>) {
+  constructor(session: Session, store: Store<StudioState>, commands: Commands) {
     this.#session = session;
+    this.#commands = commands;
     this.#store = store;
     store.subscribe((now, before) => {
       // One goes back from another mode, another photo; not from a step of the walk.
       if (now.mode !== before.mode || now.shot !== before.shot || (now.morph === null) !== (before.morph === null)) this.#isStep = true;
+      // Whoever chooses another waits no longer.
+      if (now.selected !== null) this.#awaited = null;
       this.changed();
     });
     addEventListener("popstate", () => this.show(location.hash));
@@ -28,7 +35,7 @@ export class Address {
 
   /** Shows what a link says; false where it says nothing. */
   show(hash: string): boolean {
-    const { place, viewer } = this.#session;
+    const { place } = this.#session;
     if (hash.replace(/^#/, "") === this.#written) return true;
     const view = readView(hash, {
       photos: place.shots.length,
@@ -37,12 +44,17 @@ export class Address {
       animals: place.animals.map(({ clips }) => clips.length),
     });
     if (view === null) return false;
-    // A link that says nothing of an animal follows none.
-    const animal = { ...this.#store.value.animal, following: false };
-    this.#store.update({ animal, ...view.state, selected: this.#rowOf(view) });
-    if (view.look !== null && view.state.shot === null) viewer.lookFrom(view.look);
+    this.#commands.do("view", view);
+    this.#awaited = view.picked;
+    this.arrived();
     this.#isStep = false;
     return true;
+  }
+
+  /** Something has come: it may hold the surface that a link chooses. */
+  arrived(): void {
+    const found = this.#awaited === null ? null : this.#refOf(this.#awaited);
+    if (found !== null) this.#commands.do("select", found);
   }
 
   /** The view has changed: the address will say so when it is still. */
@@ -69,14 +81,22 @@ export class Address {
 
   get #picked(): string | null {
     const { selected } = this.#store.value;
-    return selected === null ? null : (this.#session.tables[selected.part]?.rows[selected.row]?.id ?? null);
+    if (selected === null) return this.#awaited;
+    const id = this.#session.tables[selected.part]?.rows[selected.row]?.id;
+    return id === undefined ? null : `${this.#ownerOf(selected)}/${id}`;
   }
 
-  #rowOf({ picked }: View): FeatureRef | null {
-    if (picked === null) return null;
+  /** The part, or the building in a streamed place: ids are of one of them alone. */
+  #ownerOf(ref: FeatureRef): string {
+    return this.#session.town === null ? (this.#session.place.parts[ref.part]?.id ?? "") : this.#session.nameOf(ref);
+  }
+
+  /** A link may name the id alone: then it is the first of that id. */
+  #refOf(picked: string): FeatureRef | null {
     for (const [part, { rows }] of this.#session.tables.entries()) {
-      const row = rows.findIndex(({ id }) => id === picked);
-      if (row >= 0) return { part, row };
+      for (const [row, { id }] of rows.entries()) {
+        if (picked === id || (picked.endsWith(`/${id}`) && picked === `${this.#ownerOf({ part, row })}/${id}`)) return { part, row };
+      }
     }
     return null;
   }

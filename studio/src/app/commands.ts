@@ -11,6 +11,8 @@ import { type Colouring, type FeatureRef, type Layer, NEXT_COLOURING, type Studi
 import type { Store } from "../core/store.ts";
 import { durationOf, NOT_BEGUN, type TourState } from "../core/tour.ts";
 import type { Vec3 } from "../core/vector.ts";
+import type { View } from "../core/view-link.ts";
+import type { Choice } from "../three/choosing.ts";
 import { savePicture, toggleFullscreen } from "./page-actions.ts";
 import type { Session } from "./session.ts";
 import { changeStroll, nextLook, playStroll, toggleStroll } from "./stroll.ts";
@@ -36,6 +38,10 @@ export interface Told extends Record<Command, undefined> {
   readonly "play-walk": undefined;
   readonly headset: undefined;
   readonly "seek-walk": Partial<MorphState>;
+  /** What a link says. */
+  readonly view: Pick<View, "look" | "state">;
+  readonly lead: { readonly which: number; readonly goal: Vec3 };
+  readonly "ask-now": undefined;
 }
 
 /** What a command may ask of the page itself. */
@@ -44,6 +50,7 @@ export interface Page {
   toggleLayers(): void;
   closeLayersIfNarrow(): void;
   toggleHelp(): void;
+  togglePalette(): void;
   /** The viewer learns which part of the picture the panels cover. */
   leaveFree(): void;
 }
@@ -78,7 +85,14 @@ export class Commands {
     (handler as (told?: Told[Name]) => void)(told);
   }
 
-  #ofView(): Pick<Handlers, "orbit" | "walk" | "reset" | "layers" | "screenshot" | "fullscreen" | "mouse-look" | "help" | "close"> {
+  /** What a click on the place means. */
+  choose(choice: Choice): void {
+    if (choice.kind === "photo") this.do("look-through", choice.shot);
+    else if (choice.kind === "surface") this.do("select", choice.feature);
+    else this.do("lead", choice);
+  }
+
+  #ofView(): Pick<Handlers, "view" | "ask-now" | "palette" | "orbit" | "walk" | "reset" | "layers" | "screenshot" | "fullscreen" | "mouse-look" | "help" | "close"> {
     const { place, viewer } = this.#session;
     const page = this.#page;
     return {
@@ -93,6 +107,9 @@ export class Commands {
       fullscreen: () => void toggleFullscreen().then((words) => page.say(words)),
       "mouse-look": () => void this.#toggleMouseLook(),
       help: () => page.toggleHelp(),
+      palette: () => page.togglePalette(),
+      view: (view) => this.#show(view),
+      "ask-now": () => this.#session.askNow(),
       close: () => this.#close(),
     };
   }
@@ -136,7 +153,7 @@ export class Commands {
     };
   }
 
-  #ofMoving(): Pick<Handlers, "go" | "stick" | "tour" | "play-tour" | "seek-tour" | "stroll" | "morph-look" | "play-walk" | "headset" | "seek-walk" | "animal"> {
+  #ofMoving(): Pick<Handlers, "go" | "stick" | "tour" | "play-tour" | "seek-tour" | "stroll" | "morph-look" | "play-walk" | "headset" | "seek-walk" | "animal" | "lead"> {
     const { place, viewer } = this.#session;
     return {
       go: (places) => viewer.goTo(places),
@@ -150,8 +167,19 @@ export class Commands {
       "play-walk": () => playStroll(this.#session, this.#store),
       headset: () => void this.#enterHeadset(),
       "seek-walk": (change) => changeStroll(this.#store, change),
+      lead: ({ which, goal }) => {
+        viewer.animals.lead(which, goal);
+        viewer.invalidate();
+      },
       animal: (change) => this.#store.update({ animal: { ...this.#store.value.animal, ...change } }),
     };
+  }
+
+  /** A link that says nothing of an animal follows none. */
+  #show({ look, state }: Told["view"]): void {
+    const animal = { ...this.#store.value.animal, following: false };
+    this.#store.update({ animal, selected: null, ...state });
+    if (look !== null && (state.shot ?? null) === null) this.#session.viewer.lookFrom(look);
   }
 
   async #enterHeadset(): Promise<void> {
@@ -224,7 +252,7 @@ export class Commands {
   async #toggleMouseLook(): Promise<void> {
     const { viewer } = this.#session;
     if (this.#store.value.mode !== "walk") this.#store.update({ mode: "walk" });
-    if (this.#store.value.mouseLook) viewer.releaseMouse();
-    else if (!(await viewer.captureMouse())) this.#page.say("The browser keeps the mouse; drag to look around");
+    if (this.#store.value.mouseLook) viewer.pointer.release();
+    else if (!(await viewer.pointer.capture())) this.#page.say("The browser keeps the mouse; drag to look around");
   }
 }

@@ -1,6 +1,6 @@
 /**
- * `window.veduta`: what the page shows, for tests and for the curious. It only tells; to do
- * something, use the page. Lengths in metres, world frame (x east, y north, z up); angles in
+ * `window.veduta`: what the page shows, for tests and for the curious. `do` is the bus of commands.
+ * All else only tells. Lengths in metres, world frame (x east, y north, z up); angles in
  * degrees. The page says that it is ready (or failed) in `<html data-veduta="ready|error">`.
  */
 import type { Feature } from "../core/features.ts";
@@ -13,9 +13,12 @@ import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import { roomTitle } from "../core/whereabouts.ts";
 import type { ViewerStats } from "../three/viewer.ts";
+import type { Commands, Told } from "./commands.ts";
 import type { Session } from "./session.ts";
 
 export interface Inspection {
+  /** Does what a key, a button or a panel would; told what the command of that name is told. */
+  do<Name extends keyof Told>(name: Name, told: Told[Name]): void;
   /** Mode, colours, hidden classes, the hour (0..24), and layers that are off. */
   state(): { mode: string; colouring: string; hidden: string[]; hour: number; off: string[]; flying: boolean };
   camera(): { eye: Vec3; direction: Vec3; fov_deg: number };
@@ -57,11 +60,12 @@ declare global {
   }
 }
 
-export function inspect(session: Session, store: Store<StudioState>): Inspection {
+export function inspect(session: Session, store: Store<StudioState>, commands: Commands): Inspection {
   const { viewer, place, tables } = session;
   const name = (part: number, row = 0): string =>
     session.town === null ? (place.parts[part]?.id ?? "") : session.nameOf({ part, row });
   return {
+    do: (name, told) => commands.do(name, told),
     state: () => ({
       mode: store.value.mode,
       colouring: store.value.colouring,
@@ -129,8 +133,8 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
     strollCost: () => viewer.strollCost,
     bounds: () => viewer.solid.bounds,
     stats: () => {
-      const { waiting, missing } = session.onTheWay;
-      const loading = waiting + (session.town?.isLoading === true ? 1 : 0);
+      const { waiting, unseen, missing } = session.onTheWay;
+      const loading = waiting + unseen + (session.town?.isLoading === true ? 1 : 0);
       const held_MB = (session.town?.heldBytes ?? 0) / 1e6;
       return { ...viewer.stats, load_s: session.loadSeconds, loading, missing: missing.map(({ file }) => file), held_MB };
     },

@@ -1,7 +1,7 @@
 /** What of the place has not come: named, and asked for again. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import type { Missing } from "../core/asking.ts";
 import { Absent } from "../core/fault.ts";
-import type { Missing } from "../three/arrivals.ts";
 import { theme } from "./theme.ts";
 
 /** So many are named; of more the number is told. */

@@ -2,6 +2,7 @@
 import type { FeatureTable } from "../core/features.ts";
 import { STANDING } from "../core/animal.ts";
 import { beginsWithAnimal } from "../core/animal-view.ts";
+import type { Missing } from "../core/asking.ts";
 import { budgetOf } from "../core/budget.ts";
 import { type SunPath, sunPathOf } from "../core/daylight.ts";
 import { Fault } from "../core/fault.ts";
@@ -9,8 +10,10 @@ import type { House } from "../core/house.ts";
 import type { MorphState } from "../core/morph-walk.ts";
 import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
 import type { FeatureRef, Layer, StudioState } from "../core/state.ts";
+import type { Sight } from "../core/sight.ts";
 import type { Store } from "../core/store.ts";
-import { Arrivals, type Missing } from "../three/arrivals.ts";
+import { Wishes } from "../core/wishes.ts";
+import { Arrivals } from "../three/arrivals.ts";
 import { fetchText } from "../three/fetch.ts";
 import type { LoadedHouse } from "../three/household.ts";
 import type { Town } from "../three/town.ts";
@@ -25,8 +28,8 @@ export interface Session {
   readonly sunPath: SunPath;
   /** Whether there are lamps in them. */
   readonly hasLamps: boolean;
-  /** Files that are on their way, and those that did not come. */
-  readonly onTheWay: { readonly waiting: number; readonly missing: readonly Missing[] };
+  /** Files that are on their way, those of which nobody is told since they come and go as one looks about, and those that did not come. */
+  readonly onTheWay: { readonly waiting: number; readonly unseen: number; readonly missing: readonly Missing[] };
   /** Asks at once for what did not come. */
   askNow(): void;
   readonly viewer: Viewer;
@@ -51,7 +54,6 @@ export async function openPlace(
   store: Store<StudioState>,
   onProgress: (share: number, file: string) => void,
   onShown: () => void,
-  onFault: (fault: Fault) => void,
 ): Promise<Session> {
   const begin = performance.now();
   checkWebGL();
@@ -61,7 +63,7 @@ export async function openPlace(
   const drawing = import("./drawing.ts");
   onProgress(0, "place.json");
   const place = readPlace(await text, "place.json");
-  const { CloudArrivals, Frusta, Grower, loadHouse, loadPart, MorphShow, PartSlot, stillOf, SharedImages, bitmapOf, PhotoTextures, bringingFrom, Recorded, Town, Viewer } =
+  const { CloudArrivals, Frusta, Grower, bringHouse, loadPart, MorphShow, PartSlot, stillOf, SharedImages, bitmapOf, PhotoTextures, bringingBy, Recorded, Town, Viewer } =
     await drawing;
   const { tileset } = place;
   const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
@@ -71,12 +73,18 @@ export async function openPlace(
       ? null
       : new Town(fileAddress(tileset, address), budget, () => viewer?.invalidate(), onShown);
   const parts = tileset === null ? place.parts.map((part) => new PartSlot(part)) : [];
-  const images = new SharedImages();
+  const images = new SharedImages(budget.mostTexture_px);
+  // What is asked for as one looks about: pictures, models of a walk, documents.
+  const wishes = new Wishes(() => {
+    viewer?.invalidate();
+    onShown();
+  });
   const alive = new Set(place.animals.map(({ part }) => part));
   const grower = new Grower();
   const houses: LoadedHouse[] = [];
   let tables: readonly FeatureTable[] = parts.map(({ table }) => table);
   const shares = parts.map(() => 0);
+  const sight = (): Sight => viewer?.sight ?? { eye: place.start.eye, direction: null, half_rad: 0 };
   const bring = async (index: number): Promise<void> => {
     const slot = parts[index];
     if (slot === undefined) return;
@@ -89,12 +97,12 @@ export async function openPlace(
     slot.take(loaded, meets ? await grower.solidOf(stillOf(loaded), index) : null);
     tables = [...tables]; // the panels count anew
     viewer?.take(index);
-    const house = await loadHouse(slot, address, houses.length, onFault);
-    if (house === null) return;
-    houses.push(house);
-    viewer?.household.take(house);
+    await bringHouse(slot, address, houses.length, wishes, (house) => {
+      houses.push(house);
+      viewer?.household.take(house);
+    });
   };
-  const arrivals = new Arrivals(tileset === null ? place.parts : [], place.start.eye, bring, onShown);
+  const arrivals = new Arrivals(tileset === null ? place.parts : [], sight, bring, onShown);
   arrivals.start();
   await town?.open((share) => onProgress(share, "tileset.json"));
   const isSized = parts.every(({ part }) => part.bounds !== null);
@@ -114,12 +122,12 @@ export async function openPlace(
   if (isCloudAlone) await clouds.bring((share, file) => onProgress(0.97 * share, file));
   const [firstCloud] = clouds.missing;
   if (firstCloud !== undefined && clouds.group.children.length === 0) throw firstCloud.fault;
-  const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
+  const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, budget.mostTexture_px, wishes);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
   store.update({ animal: { ...STANDING, following: beginsWithAnimal(place) } });
   store.update({ off: firstOff(place), fading: !place.hidden.has("photos"), hour: sunPath.firstHour });
-  const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, () => viewer?.invalidate(), onFault);
+  const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, budget.mostTexture_px, () => viewer?.invalidate(), wishes);
   if (morphs !== null) store.update({ morph: strollFrom(0) });
   const recorded = new Recorded(
     parts,
@@ -128,7 +136,7 @@ export async function openPlace(
       viewer?.invalidate();
       onShown();
     },
-    bringingFrom(place.start.eye),
+    bringingBy(sight),
   );
   viewer = new Viewer(canvas, place, { parts, recorded, town, clouds: clouds.group, frusta, textures, houses, budget, morphs }, store);
   viewer.warm();
@@ -155,13 +163,14 @@ export async function openPlace(
       return houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0));
     },
     get onTheWay() {
-      const missing = [...(town?.missing ?? arrivals.missing), ...recorded.missing, ...clouds.missing];
-      return { waiting: arrivals.waiting + recorded.waiting + clouds.waiting, missing };
+      const missing = [...(town?.missing ?? arrivals.missing), ...recorded.missing, ...clouds.missing, ...wishes.missing];
+      return { waiting: arrivals.waiting + recorded.waiting + clouds.waiting, unseen: wishes.waiting, missing };
     },
     askNow: () => {
       arrivals.askNow();
       recorded.askNow();
       clouds.askNow();
+      wishes.askNow();
       town?.askNow();
     },
     records: recordsOf(place, town !== null),

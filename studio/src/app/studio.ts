@@ -3,6 +3,7 @@ import { html, LitElement, nothing, type TemplateResult } from "lit";
 import { keyed } from "lit/directives/keyed.js";
 import { faultOf, Fault } from "../core/fault.ts";
 import { type Command, commandOf, holdOf } from "../core/input.ts";
+import { type Entry, entriesOf } from "../core/palette.ts";
 import { INITIAL_STATE, type StudioState } from "../core/state.ts";
 import { Store } from "../core/store.ts";
 import { daylightAt } from "../core/daylight.ts";
@@ -25,6 +26,8 @@ import "./message-card.ts";
 import "./missing-panel.ts";
 import "./minimap.ts";
 import type { Minimap } from "./minimap.ts";
+import type { PaletteDialog } from "./palette-dialog.ts";
+import "./palette-dialog.ts";
 import "./photo-list.ts";
 import "./photo-panel.ts";
 import "./records-panel.ts";
@@ -61,6 +64,7 @@ export class Studio extends LitElement {
   readonly #store = new Store<StudioState>(INITIAL_STATE);
   #noticeTimer = 0;
   #commands: Commands | null = null;
+  #address: Address | null = null;
 
   static override styles = [theme, studioStyles];
 
@@ -110,18 +114,23 @@ export class Studio extends LitElement {
         (share, file) => {
           this.progress = { share, file };
         },
-        () => this.requestUpdate(),
-        (fault) => this.#say(fault.message),
+        () => {
+          this.requestUpdate();
+          this.#address?.arrived();
+        },
       );
-      this.#commands = this.#commandsOf(session);
+      const commands = this.#commandsOf(session);
+      this.#commands = commands;
       this.session = session;
-      const address = new Address(session, this.#store);
+      const address = new Address(session, this.#store, commands);
+      this.#address = address;
+      session.viewer.onChoice = (choice) => commands.choose(choice);
       session.viewer.onDrawn = () => {
         address.changed();
         if (session.houses.length > 0) this.#drawMap(session);
       };
       fillHead(session);
-      window.veduta = inspect(session, this.#store);
+      window.veduta = inspect(session, this.#store, commands);
       await this.updateComplete;
       this.#leaveFree(session);
       session.viewer.goHome();
@@ -144,6 +153,7 @@ export class Studio extends LitElement {
         if (isNarrow()) this.layersOpen = false;
       },
       toggleHelp: () => this.#help?.toggle(),
+      togglePalette: () => this.#palette?.toggle(),
       leaveFree: () => this.#leaveFree(session),
     });
   }
@@ -208,7 +218,7 @@ export class Studio extends LitElement {
         @select-row=${({ detail: row }: CustomEvent<number>) =>
           state.selected === null ? undefined : this.#commands?.do("select", { part: state.selected.part, row })}></veduta-feature-panel>
       <veduta-missing class="sheet" .waiting=${session.onTheWay.waiting} .missing=${session.onTheWay.missing}
-        @ask-now=${() => session.askNow()}></veduta-missing>
+        @ask-now=${() => this.#commands?.do("ask-now")}></veduta-missing>
       ${this.#photoPanel(session)}
       ${session.houses.length === 0
         ? nothing
@@ -228,6 +238,7 @@ export class Studio extends LitElement {
         html`<p class="hint ${overTour}" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
       )}
       <veduta-help></veduta-help>
+      <veduta-palette .entries=${commandsFor(session)} @command=${(event: CustomEvent<Entry["name"]>) => this.#commands?.do(event.detail)}></veduta-palette>
     `;
   }
 
@@ -295,7 +306,7 @@ export class Studio extends LitElement {
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { session } = this;
     if (session === null || this.fault !== null) return;
-    if (this.#help?.isOpen === true) return;
+    if (this.#help?.isOpen === true || this.#palette?.isOpen === true) return;
     const hold = holdOf(event);
     if (hold !== null) {
       if (down && isTyping(event)) return;
@@ -313,6 +324,10 @@ export class Studio extends LitElement {
     return this.renderRoot.querySelector<HelpDialog>("veduta-help");
   }
 
+  get #palette(): PaletteDialog | null {
+    return this.renderRoot.querySelector<PaletteDialog>("veduta-palette");
+  }
+
   /** The map shows the same moment as the picture. */
   #drawMap({ viewer }: Session): void {
     const { feet, heading } = viewer.walker;
@@ -326,6 +341,18 @@ export class Studio extends LitElement {
     clearTimeout(this.#noticeTimer);
     this.#noticeTimer = window.setTimeout(() => (this.notice = ""), 2500);
   }
+}
+
+/** The commands that this place has something for. */
+function commandsFor({ place, houses, onTheWay }: Session): Entry[] {
+  const { shots, tours, walks } = place;
+  return entriesOf({
+    houses: houses.length > 0,
+    photos: shots.length > 0,
+    tours: tours.length > 0,
+    walks: walks.length > 0,
+    missing: onTheWay.missing.length > 0,
+  });
 }
 
 customElements.define("veduta-studio", Studio);

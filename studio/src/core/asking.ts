@@ -1,5 +1,13 @@
 /** Asking again for what did not come: after growing pauses, and at once when the network is back. */
 
+import type { Fault } from "./fault.ts";
+
+/** A file that did not come, and why. */
+export interface Missing {
+  readonly file: string;
+  readonly fault: Fault;
+}
+
 const FIRST_PAUSE_MS = 2000;
 const LONGEST_PAUSE_MS = 60_000;
 

@@ -13,6 +13,8 @@ export interface Budget {
   readonly keptTiles_bytes: number;
   /** No tile more is asked for while it takes so much. */
   readonly mostTiles_bytes: number;
+  /** Larger pictures are made smaller before the card gets them: their longest side. */
+  readonly mostTexture_px: number;
   /** The side of the shadow map (pixels) over a place of some radius (m). */
   shadowSide_px(radius_m: number): number;
 }
@@ -27,8 +29,11 @@ const SMALL_SCREEN = 1.5;
 const KEPT_BYTES = 12e6;
 const MOST_BYTES = 400e6;
 const SMALL_MOST_BYTES = 150e6;
-/** Shadows of a wider place are too coarse on the smaller map. */
+/** Shadows of a wider place are too coarse on the smallest map; a map of twice the side costs four times the memory. */
 const NARROW_M = 25;
+const [SMALLEST_SHADOW_PX, SHADOW_PX] = [1024, 2048];
+/** A phone's screen has about so many pixels along its longer side: a picture of 4,096² would take 89 MB of it, one of 2,048² 22 MB. */
+const SMALL_TEXTURE_PX = 2048;
 
 export function budgetOf(place: Pick<Place, "parts">, { isSmall }: Machine): Budget {
   const error_px = builtArea_m2(place) > SMALL_PLACE_M2 ? COARSE_PX : FINE_PX;
@@ -36,10 +41,8 @@ export function budgetOf(place: Pick<Place, "parts">, { isSmall }: Machine): Bud
     tileError_px: isSmall ? SMALL_SCREEN * error_px : error_px,
     keptTiles_bytes: KEPT_BYTES,
     mostTiles_bytes: isSmall ? SMALL_MOST_BYTES : MOST_BYTES,
-    shadowSide_px: (radius_m) => {
-      if (isSmall) return radius_m > NARROW_M ? 2048 : 1024;
-      return radius_m > NARROW_M ? 4096 : 2048;
-    },
+    mostTexture_px: isSmall ? SMALL_TEXTURE_PX : Infinity,
+    shadowSide_px: (radius_m) => (isSmall && radius_m <= NARROW_M ? SMALLEST_SHADOW_PX : SHADOW_PX),
   };
 }
 

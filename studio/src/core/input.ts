@@ -22,6 +22,7 @@ export type Command =
   | "stroll"
   | "morph-look"
   | "help"
+  | "palette"
   | "close";
 
 /** Keys that act while they are held. */
@@ -65,6 +66,7 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["Digit3"], action: "stroll", shown: "3", text: "On a walk from view to view: go on it, or leave it" },
   { codes: ["KeyJ"], action: "morph-look", shown: "J", text: "On a walk from view to view: picture, geometry, counterparts" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
+  { codes: [], action: "palette", shown: "Ctrl K", text: "All commands, by their names" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },
 ];
 
@@ -88,8 +90,9 @@ interface KeyPress {
   readonly metaKey: boolean;
 }
 
-/** The command of a key press; keys with Ctrl, Alt or Meta belong to the browser. */
+/** The command of a key press; keys with Ctrl, Alt or Meta belong to the browser, but for the one of the commands. */
 export function commandOf(press: KeyPress): Command | null {
+  if (press.code === "KeyK" && (press.ctrlKey || press.metaKey) && !press.altKey) return "palette";
   if (press.ctrlKey || press.altKey || press.metaKey) return null;
   if (press.key === "?") return "help";
   return actionOf(COMMAND_BINDINGS, press.code);

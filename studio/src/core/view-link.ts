@@ -23,7 +23,7 @@ export type ViewState = Partial<
 export interface View {
   readonly look: Look | null;
   readonly state: ViewState;
-  /** Id of the surface that is chosen. */
+  /** The surface that is chosen: its part or building, a slash, and its id; or the id alone. */
   readonly picked: string | null;
 }
 

@@ -1,23 +1,24 @@
-/** The parts of a place on their way: several at once, the nearest first; what fails is asked for again. */
-import { Asking, PAGE, type Surroundings } from "../core/asking.ts";
+/** The parts of a place on their way: several at once, what is seen and near first; what fails is asked for again. */
+import { Asking, type Missing, PAGE, type Surroundings } from "../core/asking.ts";
 import { Absent, type Fault, faultOf } from "../core/fault.ts";
 import { worldPoint } from "../core/frames.ts";
+import { boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Part } from "../core/place.ts";
+import { awayFrom, type Ball, sees, type Sight } from "../core/sight.ts";
 import { length, scale, subtract, add, type Vec3 } from "../core/vector.ts";
 
+/** What is not seen comes after all that is. */
+const UNSEEN_M = 1e9;
 /** A browser holds six connections to a server of HTTP/1.1. */
 const AT_ONCE = 6;
-
-export interface Missing {
-  readonly file: string;
-  readonly fault: Fault;
-}
 
 export class Arrivals {
   readonly #parts: readonly Part[];
   readonly #fetch: (index: number) => Promise<void>;
   readonly #onChange: () => void;
   readonly #asking: Asking;
+  readonly #sight: () => Sight;
+  readonly #balls: readonly Ball[];
   #queue: number[];
   #underway = 0;
   #untried: number;
@@ -25,19 +26,21 @@ export class Arrivals {
   readonly #missing = new Map<number, Fault>();
   readonly #waiters: { readonly isDone: () => boolean; readonly tell: () => void }[] = [];
 
-  /** `fetch` brings a part; `onChange` is called when one has come, or has not. */
-  constructor(parts: readonly Part[], eye: Vec3, fetch: (index: number) => Promise<void>, onChange: () => void, around: Surroundings = PAGE) {
+  /** `sight` is that of now: whoever turns gets what he sees then. `fetch` brings a part; `onChange` is called when one has come, or has not. */
+  constructor(parts: readonly Part[], sight: () => Sight, fetch: (index: number) => Promise<void>, onChange: () => void, around: Surroundings = PAGE) {
     this.#parts = parts;
     this.#fetch = fetch;
     this.#onChange = onChange;
-    this.#queue = inOrder(parts, eye);
+    this.#sight = sight;
+    this.#balls = parts.map(ballOf);
+    this.#queue = parts.map((_, index) => index);
     this.#untried = parts.length;
     this.#asking = new Asking(() => this.#askAgain(), around);
   }
 
   start(): void {
     while (this.#underway < AT_ONCE) {
-      const index = this.#queue.shift();
+      const index = this.#next();
       if (index === undefined) return;
       this.#underway += 1;
       void this.#bring(index);
@@ -78,6 +81,18 @@ export class Arrivals {
     await new Promise<void>((resolve) => this.#waiters.push({ isDone, tell: resolve }));
   }
 
+  /** What is to come first of those that wait, as one sees now. */
+  #next(): number | undefined {
+    const sight = this.#sight();
+    let [first, best] = [0, Infinity];
+    for (const [place, index] of this.#queue.entries()) {
+      const [part, ball] = [this.#parts[index], this.#balls[index]];
+      const rank = part === undefined || ball === undefined ? Infinity : rankOf(part, ball, sight);
+      if (rank < best) [first, best] = [place, rank];
+    }
+    return this.#queue.splice(first, 1)[0];
+  }
+
   async #bring(index: number): Promise<void> {
     const isFirstTry = !this.#missing.has(index);
     try {
@@ -104,14 +119,16 @@ export class Arrivals {
   }
 }
 
-/** The ground first, then what stands nearest to where one begins. */
-function inOrder(parts: readonly Part[], eye: Vec3): number[] {
-  const away = ({ bounds, isGround, isBackdrop, worldFromPart }: Part): number => {
-    if (isGround) return -1;
-    if (isBackdrop) return Infinity;
-    const middle: Vec3 = bounds === null ? [0, 0, 0] : scale(add(bounds.min, bounds.max), 0.5);
-    return length(subtract(worldPoint(worldFromPart, middle), eye));
-  };
-  const ranked = parts.map((part, index) => ({ index, away_m: away(part) }));
-  return ranked.toSorted((a, b) => (a.away_m < b.away_m ? -1 : a.away_m > b.away_m ? 1 : 0)).map(({ index }) => index);
+/** Around a part, world frame; one that does not say how large it is stands where its frame begins. */
+function ballOf({ bounds, worldFromPart }: Part): Ball {
+  const corners = bounds === null ? [[0, 0, 0] as Vec3] : cornersOf(bounds);
+  const { min, max } = boxOfPoints(corners.map((corner) => worldPoint(worldFromPart, corner)));
+  return { middle: scale(add(min, max), 0.5), radius: length(subtract(max, min)) / 2 };
+}
+
+/** Smaller comes sooner: the ground, then what is seen, the nearest first, then the rest, and a picture around it last. */
+function rankOf({ isGround, isBackdrop }: Part, ball: Ball, sight: Sight): number {
+  if (isGround) return -1;
+  if (isBackdrop) return Infinity;
+  return awayFrom(sight, ball) + (sees(sight, ball) ? 0 : UNSEEN_M);
 }

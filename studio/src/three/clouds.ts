@@ -1,12 +1,11 @@
 /** Clouds of points, in their own colours. */
 import { type BufferGeometry, Group, Points, PointsMaterial, Vector3 } from "three";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
-import { Asking, PAGE, type Surroundings } from "../core/asking.ts";
+import { Asking, type Missing, PAGE, type Surroundings } from "../core/asking.ts";
 import { Absent, Fault, faultOf } from "../core/fault.ts";
 import { drawnFromModel, worldFromDrawn } from "../core/frames.ts";
 import { type Cloud, fileAddress } from "../core/place.ts";
 import type { Layer } from "../core/state.ts";
-import type { Missing } from "./arrivals.ts";
 import { fetchBytes } from "./fetch.ts";
 
 const MAGIC = "ply";

@@ -1,7 +1,7 @@
 /** The houses of a place: parts with rooms, and what their documents say of them. */
-import { Fault, faultOf } from "../core/fault.ts";
 import { readHouse } from "../core/house.ts";
 import { fileAddress } from "../core/place.ts";
+import type { Wishes } from "../core/wishes.ts";
 import { fetchText } from "./fetch.ts";
 import type { LoadedHouse } from "./household.ts";
 import type { LoadedPart } from "./load.ts";
@@ -10,25 +10,26 @@ import type { LoadedPart } from "./load.ts";
 const MOST_HOUSES = 40;
 
 /**
- * The house of a part that has come, where it is one and there are not too many already. A document that
- * is broken or not there is told, and its house shown without map and lamps.
+ * Asks for the house of a part that has come, where it is one and there are not too many already. While its
+ * document does not come, or where it is broken, the house is shown without map and lamps. The result comes
+ * when it was asked for once.
  */
-export async function loadHouse(
+export async function bringHouse(
   part: LoadedPart,
   manifest: URL,
   already: number,
-  onFault: (fault: Fault) => void,
-): Promise<LoadedHouse | null> {
+  wishes: Wishes,
+  take: (house: LoadedHouse) => void,
+): Promise<void> {
   const file = part.part.document;
-  if (file === null || !isInhabited(part) || already >= MOST_HOUSES) return null;
-  try {
-    const text = await fetchText(fileAddress(file, manifest), file);
-    const house = readHouse(text, file, part.part.worldFromPart);
+  if (file === null || !isInhabited(part) || already >= MOST_HOUSES) return;
+  const read = async (): Promise<LoadedHouse | null> => {
+    const house = readHouse(await fetchText(fileAddress(file, manifest), file), file, part.part.worldFromPart);
     return house === null ? null : { house, part };
-  } catch (error) {
-    onFault(faultOf(error));
-    return null;
-  }
+  };
+  await wishes.bring(file, read, (house) => {
+    if (house !== null) take(house);
+  }).tried;
 }
 
 /** Buildings that were made of their outsides alone have no ceilings. */

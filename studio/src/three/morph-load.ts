@@ -1,10 +1,12 @@
 /** Loading what a walk needs near the person: the models of transitions, and the pictures of stations. */
 import { BufferAttribute, BufferGeometry, LinearMipmapLinearFilter, Mesh, NoColorSpace, Texture, type WebGLRenderer } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import { Fault, faultOf } from "../core/fault.ts";
+import { Fault } from "../core/fault.ts";
 import { type MorphWalk, nearTransitions, placeOn } from "../core/morph-walk.ts";
 import { fileAddress } from "../core/place.ts";
+import type { Wish, Wishes } from "../core/wishes.ts";
 import { fetchBytes } from "./fetch.ts";
+import { within } from "./limited-image.ts";
 
 const REMEDY = "Write the walk again with `veduta walk`.";
 const ANISOTROPY = 8;
@@ -26,18 +28,22 @@ export class MorphFiles {
   readonly #walk: MorphWalk;
   readonly #manifest: URL;
   readonly #onArrival: () => void;
-  readonly #onFault: (fault: Fault) => void;
+  readonly #most_px: number;
+  readonly #wishes: Wishes;
   readonly #ways = new Map<number, WayModels | null>();
   readonly #pictures = new Map<number, Texture | null>();
+  readonly #wayWishes = new Map<number, readonly Wish[]>();
+  readonly #pictureWishes = new Map<number, Wish>();
   #wanted = new Set<number>();
   /** Pictures that have come, but are not on the card. */
   readonly #fresh = new Set<Texture>();
 
-  constructor(walk: MorphWalk, manifest: URL, onArrival: () => void, onFault: (fault: Fault) => void) {
+  constructor(walk: MorphWalk, manifest: URL, most_px: number, onArrival: () => void, wishes: Wishes) {
     this.#walk = walk;
     this.#manifest = manifest;
     this.#onArrival = onArrival;
-    this.#onFault = onFault;
+    this.#most_px = most_px;
+    this.#wishes = wishes;
   }
 
   way(transition: number): WayModels | null {
@@ -64,8 +70,7 @@ export class MorphFiles {
 
   /** How many models and pictures are on their way. */
   get waiting(): number {
-    const models = [...this.#ways.values()].filter((way) => way === null).length;
-    return models + [...this.#pictures.values()].filter((picture) => picture === null).length;
+    return this.#wishes.waiting;
   }
 
   /** On the card: models as they are, pictures with their smaller ones. */
@@ -90,15 +95,19 @@ export class MorphFiles {
     for (const [transition, models] of this.#ways) {
       if (this.#wanted.has(transition)) continue;
       this.#ways.delete(transition);
+      for (const wish of this.#wayWishes.get(transition) ?? []) wish.drop();
+      this.#wayWishes.delete(transition);
       for (const end of models === null ? [] : [models.forth, models.back]) dispose(end);
     }
     for (const [station, picture] of this.#pictures) {
       if (stations.has(station)) continue;
       this.#pictures.delete(station);
+      this.#pictureWishes.get(station)?.drop();
+      this.#pictureWishes.delete(station);
       picture?.dispose();
     }
-    for (const station of stations) if (!this.#pictures.has(station)) void this.#fetchPicture(station);
-    for (const transition of near) if (!this.#ways.has(transition)) void this.#fetchWay(transition);
+    for (const station of stations) if (!this.#pictures.has(station)) void this.#bringPicture(station);
+    for (const transition of near) if (!this.#ways.has(transition)) void this.#bringWay(transition);
   }
 
   /** Until the picture of the station next to a place is there; what leads to others comes after it. */
@@ -106,7 +115,7 @@ export class MorphFiles {
     const { transition, m } = placeOn(this.#walk, at);
     const way = this.#walk.transitions[transition];
     const station = (m < 0.5 ? way?.start : way?.end) ?? 0;
-    if (!this.#pictures.has(station)) await this.#fetchPicture(station);
+    if (!this.#pictures.has(station)) await this.#bringPicture(station);
     this.follow(at);
   }
 
@@ -118,47 +127,50 @@ export class MorphFiles {
     this.#pictures.clear();
   }
 
-  async #fetchWay(transition: number): Promise<void> {
+  /** What does not come stays null, so that nobody but `wishes` asks for it again. */
+  async #bringWay(transition: number): Promise<void> {
     const { forth, back } = this.#walk.transitions[transition] ?? {};
     if (forth === null || forth === undefined || back === null || back === undefined) return;
     this.#ways.set(transition, null);
-    try {
-      const models = { forth: await this.#model(forth), back: await this.#model(back) };
+    const came: Partial<Record<"forth" | "back", EndModel>> = {};
+    const take = (end: "forth" | "back", model: EndModel): void => {
+      came[end] = model;
+      if (came.forth === undefined || came.back === undefined) return;
+      const models = { forth: came.forth, back: came.back };
       if (this.#ways.get(transition) === null && this.#wanted.has(transition)) this.#ways.set(transition, models);
-      else for (const end of [models.forth, models.back]) dispose(end);
+      else for (const one of [models.forth, models.back]) dispose(one);
       this.#onArrival();
-    } catch (error) {
-      this.#ways.delete(transition);
-      this.#onFault(faultOf(error));
-    }
+    };
+    const brought = ([["forth", forth], ["back", back]] as const).map(([end, file]) =>
+      this.#wishes.bring(file, async () => await this.#model(file), (model) => take(end, model)),
+    );
+    this.#wayWishes.set(transition, brought);
+    await Promise.all(brought.map(async ({ tried }) => await tried));
   }
 
-  async #fetchPicture(station: number): Promise<void> {
+  async #bringPicture(station: number): Promise<void> {
     const file = this.#walk.stations[station]?.picture;
     if (file === undefined) return;
     this.#pictures.set(station, null);
-    try {
-      const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
-      const bitmap = await createImageBitmap(new Blob([bytes]));
-      const texture = new Texture(bitmap);
-      texture.flipY = false;
-      texture.colorSpace = NoColorSpace;
-      texture.minFilter = LinearMipmapLinearFilter;
-      texture.anisotropy = ANISOTROPY;
-      texture.needsUpdate = true;
-      texture.addEventListener("dispose", () => {
-        bitmap.close();
-        this.#fresh.delete(texture);
-      });
+    const wish = this.#wishes.bring(file, async () => await this.#bitmap(file), (bitmap) => {
+      const texture = textureOf(bitmap);
+      texture.addEventListener("dispose", () => this.#fresh.delete(texture));
       if (this.#pictures.get(station) === null) {
         this.#pictures.set(station, texture);
         this.#fresh.add(texture);
       } else texture.dispose();
       this.#onArrival();
-    } catch (error) {
-      this.#pictures.delete(station);
-      this.#onFault(faultOf(error));
-    }
+    });
+    this.#pictureWishes.set(station, wish);
+    await wish.tried;
+  }
+
+  async #bitmap(file: string): Promise<ImageBitmap> {
+    const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
+    const bitmap = await createImageBitmap(new Blob([bytes])).catch(() => {
+      throw new Fault(file, "the picture cannot be read", REMEDY);
+    });
+    return await within(bitmap, this.#most_px);
   }
 
   async #model(file: string): Promise<EndModel> {
@@ -183,6 +195,17 @@ export class MorphFiles {
     const [torn = new BufferGeometry(), moving = new BufferGeometry()] = others;
     return { seen, torn, moving };
   }
+}
+
+function textureOf(bitmap: ImageBitmap): Texture {
+  const texture = new Texture(bitmap);
+  texture.flipY = false;
+  texture.colorSpace = NoColorSpace;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.anisotropy = ANISOTROPY;
+  texture.needsUpdate = true;
+  texture.addEventListener("dispose", () => bitmap.close());
+  return texture;
 }
 
 /** The columns under the names that the shaders have for them. */

@@ -14,9 +14,9 @@ import {
   type WebGLRenderer,
   type WebGLRenderTarget,
 } from "three";
-import type { Fault } from "../core/fault.ts";
 import { heightToCover, type MorphState, type MorphWalk, nearestStation, placeOn, reachOf, type Station, walkedOn } from "../core/morph-walk.ts";
 import { axesOf, drawnFromCamera } from "../core/pinhole.ts";
+import type { Wishes } from "../core/wishes.ts";
 import { type Eye, eyeCamera, levelAt } from "./eyes.ts";
 import { MorphFiles, type WayModels } from "./morph-load.ts";
 import { MorphLayer } from "./morph-layer.ts";
@@ -67,9 +67,9 @@ export class MorphShow {
   #yaw = 0;
   #pitch = 0;
 
-  constructor(walks: readonly MorphWalk[], manifest: URL, onArrival: () => void, onFault: (fault: Fault) => void) {
+  constructor(walks: readonly MorphWalk[], manifest: URL, most_px: number, onArrival: () => void, wishes: Wishes) {
     this.#walks = walks;
-    this.#files = walks.map((walk) => new MorphFiles(walk, manifest, onArrival, onFault));
+    this.#files = walks.map((walk) => new MorphFiles(walk, manifest, most_px, onArrival, wishes));
     const plane = new Mesh(new PlaneGeometry(2, 2), mixMaterial(this.#mix));
     plane.frustumCulled = false;
     this.#screen.add(plane);

@@ -3,6 +3,7 @@ import { LinearFilter, LinearMipmapLinearFilter, SRGBColorSpace, Texture } from 
 import { BoundedCache } from "../core/bounded-cache.ts";
 import { Fault } from "../core/fault.ts";
 import { fileAddress, type Shot } from "../core/place.ts";
+import type { Wishes } from "../core/wishes.ts";
 import { fetchBytes } from "./fetch.ts";
 
 /** Longest sides: photos that come and go while one walks, and the one that is chosen. */
@@ -17,14 +18,16 @@ const ANISOTROPY = 8;
 export class PhotoTextures {
   readonly #shots: readonly Shot[];
   readonly #manifest: URL;
-  readonly #onFault: (fault: Fault) => void;
+  readonly #most_px: number;
+  readonly #wishes: Wishes;
   readonly #cache: BoundedCache<string, Texture<ImageBitmap>>;
 
-  /** `onFault` hears of photos that cannot be loaded: the place is there without them. */
-  constructor(shots: readonly Shot[], manifest: URL, onFault: (fault: Fault) => void) {
+  /** No photo is larger than `most_px`. `wishes` names the photos that do not come, and asks for them again: the place is there without them. */
+  constructor(shots: readonly Shot[], manifest: URL, most_px: number, wishes: Wishes) {
     this.#shots = shots;
     this.#manifest = manifest;
-    this.#onFault = onFault;
+    this.#most_px = most_px;
+    this.#wishes = wishes;
     this.#cache = new BoundedCache(MOST_BYTES, {
       load: (key) => this.#load(key),
       cost: ({ image }) => BYTES_PER_PIXEL * image.width * image.height,
@@ -35,7 +38,7 @@ export class PhotoTextures {
     });
   }
 
-  /** Null where it cannot be had. Each call wants one of `release`. */
+  /** Null where there is no such photo; of one that does not come nothing is heard. Each call wants one of `release`. */
   async acquire(index: number, side_px: number): Promise<Texture | null> {
     return await this.#cache.acquire(keyOf(index, side_px));
   }
@@ -56,12 +59,11 @@ export class PhotoTextures {
     const [index = 0, side_px = PASSING_PX] = key.split(" ").map(Number);
     const shot = this.#shots[index];
     if (shot === undefined) return null;
-    try {
-      return textureOf(await bitmapOf(shot, this.#manifest, side_px, "flipY"));
-    } catch {
-      this.#onFault(new Fault(shot.picture, "the photo could not be loaded", "Write the place again."));
-      return null;
-    }
+    const most_px = Math.min(side_px, this.#most_px);
+    const load = async (): Promise<ImageBitmap> => await bitmapOf(shot, this.#manifest, most_px, "flipY");
+    return await new Promise((resolve) => {
+      this.#wishes.bring(shot.picture, load, (bitmap) => resolve(textureOf(bitmap)));
+    });
   }
 }
 
@@ -74,12 +76,16 @@ export async function bitmapOf(
 ): Promise<ImageBitmap> {
   const bytes = await fetchBytes(fileAddress(shot.picture, manifest), shot.picture, () => undefined);
   const share = Math.min(1, side_px / Math.max(shot.width_px, shot.height_px));
-  return await createImageBitmap(new Blob([bytes]), {
-    imageOrientation,
-    resizeWidth: Math.max(1, Math.round(share * shot.width_px)),
-    resizeHeight: Math.max(1, Math.round(share * shot.height_px)),
-    resizeQuality: "medium",
-  });
+  try {
+    return await createImageBitmap(new Blob([bytes]), {
+      imageOrientation,
+      resizeWidth: Math.max(1, Math.round(share * shot.width_px)),
+      resizeHeight: Math.max(1, Math.round(share * shot.height_px)),
+      resizeQuality: "medium",
+    });
+  } catch {
+    throw new Fault(shot.picture, "the photo cannot be read", "Write the place again.");
+  }
 }
 
 function keyOf(index: number, side_px: number): string {

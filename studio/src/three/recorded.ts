@@ -1,8 +1,9 @@
 /** What was recorded, beside the model that was made of it: it is fetched when it is first wanted. */
 import { type Object3D, Vector2 } from "three";
+import type { Missing } from "../core/asking.ts";
 import type { Part } from "../core/place.ts";
-import type { Vec3 } from "../core/vector.ts";
-import { Arrivals, type Missing } from "./arrivals.ts";
+import type { Sight } from "../core/sight.ts";
+import { Arrivals } from "./arrivals.ts";
 import type { PartSlot } from "./part-slot.ts";
 
 /** What draws: its size is in CSS pixels, from the left and from below. */
@@ -15,9 +16,9 @@ export interface Wiped {
 /** The arrivals of parts: those of the page, or those of a test. */
 export type Bringing = (parts: readonly Part[], fetch: (index: number) => Promise<void>, onChange: () => void) => Arrivals;
 
-/** Those nearest to an eye first. */
-export function bringingFrom(eye: Vec3): Bringing {
-  return (parts, fetch, onChange) => new Arrivals(parts, eye, fetch, onChange);
+/** What is seen first, and of it the nearest. */
+export function bringingBy(sight: () => Sight): Bringing {
+  return (parts, fetch, onChange) => new Arrivals(parts, sight, fetch, onChange);
 }
 
 export class Recorded {

@@ -6,6 +6,8 @@
 import { ClampToEdgeWrapping, LinearFilter, LinearMipmapLinearFilter, LoaderUtils, RepeatWrapping, type Texture, TextureLoader } from "three";
 import type { GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 
+import { limited } from "./limited-image.ts";
+
 const ANISOTROPY = 8;
 const DIGEST = /^sha256-[0-9a-f]{64}$/;
 /** As glTF numbers it. */
@@ -20,6 +22,12 @@ interface Named {
 export class SharedImages {
   readonly #known = new Map<string, Promise<Texture>>();
   readonly #loader = new TextureLoader();
+  readonly #most_px: number;
+
+  /** Larger images are made smaller: their longest side. */
+  constructor(most_px: number) {
+    this.#most_px = most_px;
+  }
 
   /** Takes over the textures of a file whose images lie beside it, or are named by their digests. */
   pluginOf(parser: GLTFParser): GLTFLoaderPlugin {
@@ -35,7 +43,7 @@ export class SharedImages {
           const address = LoaderUtils.resolveURL(uri, parser.options.path);
           return this.#shared(address, isClamped, () => this.#loader.loadAsync(address));
         }
-        if (uri !== undefined || name === undefined || !DIGEST.test(name)) return null;
+        if (uri !== undefined || name === undefined || !DIGEST.test(name)) return this.#own(parser, number, source);
         return this.#shared(name, isClamped, () => parser.loadImageSource(source, parser.textureLoader));
       },
     };
@@ -50,11 +58,17 @@ export class SharedImages {
     }
   }
 
+  /** An image that nobody else knows; null where the parser may load it as it is. */
+  #own(parser: GLTFParser, number: number, source: number): Promise<Texture> | null {
+    if (!Number.isFinite(this.#most_px)) return null;
+    return parser.loadTextureImage(number, source, parser.textureLoader).then(async (texture) => await limited(texture, this.#most_px));
+  }
+
   /** A texture of its own, of the image that all of them have. */
   async #shared(key: string, isClamped: boolean, load: () => Promise<Texture>): Promise<Texture> {
     let known = this.#known.get(key);
     if (known === undefined) {
-      known = load();
+      known = load().then(async (one) => await limited(one, this.#most_px));
       this.#known.set(key, known);
       // One that did not arrive is asked for again by the next that shows it.
       known.catch(() => this.#known.delete(key));

@@ -19,7 +19,7 @@ import {
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { CLASS_LOOKS, PROVENANCE_LOOKS, type Provenance, type SemanticClass } from "../core/classes.ts";
-import { Asking } from "../core/asking.ts";
+import { Asking, type Missing } from "../core/asking.ts";
 import type { Budget } from "../core/budget.ts";
 import { Absent, Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
@@ -28,7 +28,6 @@ import type { Box } from "../core/framing.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
-import type { Missing } from "./arrivals.ts";
 import { FlatTiles, tableOf, WALKABLE_ERROR_M } from "./flat-tiles.ts";
 import { layGround } from "./ground-material.ts";
 import { type Hit, Solid } from "./solid.ts";
@@ -56,7 +55,7 @@ export class Town implements Obstacles {
   readonly #floors = new Map<Object3D, Solid>();
   readonly #byPart: (TileModel | undefined)[] = [];
   readonly #solids = new Map<Object3D, Solid>();
-  readonly #images = new SharedImages();
+  readonly #images: SharedImages;
   readonly #onChange: () => void;
   readonly #error_px: number;
   /** What is asked for while finer tiles do not come. */
@@ -74,6 +73,7 @@ export class Town implements Obstacles {
     this.#onChange = onChange;
     this.#folder = new URL("..", address).href;
     this.#tiles = new FlatTiles(address.href, budget);
+    this.#images = new SharedImages(budget.mostTexture_px);
     this.#error_px = budget.tileError_px;
     this.#plain_px = this.#error_px;
     this.#tiles.errorTarget = this.#error_px;

@@ -4,12 +4,13 @@ import { worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import type { Hold } from "../core/input.ts";
 import type { Place } from "../core/place.ts";
+import type { Sight } from "../core/sight.ts";
 import type { StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import { add, subtract, type Vec3 } from "../core/vector.ts";
 import type { Look } from "../core/view-link.ts";
 import type { Walker } from "../core/walking.ts";
-import { chooseAt } from "./choosing.ts";
+import { type Choice, choiceAt } from "./choosing.ts";
 import { DrawLoop } from "./draw-loop.ts";
 import type { Frusta } from "./frusta.ts";
 import { Follower } from "./follower.ts";
@@ -22,6 +23,7 @@ import { Picker } from "./picker.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeRenderer } from "./renderer.ts";
 import { Screen } from "./screen.ts";
+import { type Seen, seenBy, sightBy } from "./seen.ts";
 import { Stage, type ViewerContent } from "./stage.ts";
 import { Steering } from "./steering.ts";
 import { TourGuide } from "./tour-guide.ts";
@@ -53,7 +55,7 @@ export class Viewer {
   readonly #orbit: OrbitRig;
   readonly #walk: WalkRig;
   readonly #guide: TourGuide | null;
-  readonly #pointer: CanvasPointer;
+  readonly pointer: CanvasPointer;
   /** What is under a point of the canvas. */
   readonly picker: Picker;
   readonly #resizes: ResizeObserver;
@@ -74,6 +76,8 @@ export class Viewer {
   #insets: Insets = NO_INSETS;
   /** Called after each picture. */
   onDrawn: () => void = () => undefined;
+  /** Called with what a click on the place means. */
+  onChoice: (choice: Choice) => void = () => undefined;
 
   constructor(canvas: HTMLCanvasElement, place: Place, content: ViewerContent, store: Store<StudioState>) {
     const { town, frusta } = content;
@@ -95,10 +99,10 @@ export class Viewer {
     this.#follower = new Follower(this.#orbit, this.#stage.animals);
     this.#steering = new Steering({ camera: this.#camera, walk: this.#walk, orbit: this.#orbit, guide: this.#guide }, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
-    this.#pointer = new CanvasPointer(canvas, {
+    this.pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => {
-        chooseAt(x, y, this.picker, this.#stage.animals, store);
-        this.invalidate();
+        const choice = choiceAt(x, y, this.picker, this.#stage.animals, store.value);
+        if (choice !== null) this.onChoice(choice);
       },
       onLook: (dx, dy, captured) => this.#look(dx, dy, captured),
       onCapture: (captured) => store.update({ mouseLook: captured }),
@@ -206,14 +210,17 @@ export class Viewer {
   }
 
   /** World frame. */
-  get pose(): { eye: Vec3; direction: Vec3; fov_deg: number } {
-    const camera = (this.#store.value.morph === null ? null : this.#morphs?.camera) ?? this.#camera;
-    const direction = camera.getWorldDirection(new Vector3());
-    return {
-      eye: worldFromDrawn(camera.position.toArray()),
-      direction: worldFromDrawn(direction.toArray()),
-      fov_deg: camera.fov,
-    };
+  get pose(): Seen {
+    return seenBy(this.#drawnBy);
+  }
+
+  get #drawnBy(): PerspectiveCamera {
+    return (this.#store.value.morph === null ? null : this.#morphs?.camera) ?? this.#camera;
+  }
+
+  /** What is seen now; null before the first picture. */
+  get sight(): Sight | null {
+    return this.#isPrepared ? sightBy(this.#drawnBy) : null;
   }
 
   /** Where one stands and looks to: around which one turns, or straight ahead. */
@@ -281,14 +288,6 @@ export class Viewer {
     this.#fly(home.pose);
   }
 
-  async captureMouse(): Promise<boolean> {
-    return await this.#pointer.capture();
-  }
-
-  releaseMouse(): void {
-    this.#pointer.release();
-  }
-
   async screenshot(): Promise<Blob> {
     this.#draw();
     return await this.#screen.picture();
@@ -299,7 +298,7 @@ export class Viewer {
     void this.headset?.leave();
     this.#loop.stop();
     this.#resizes.disconnect();
-    this.#pointer.dispose();
+    this.pointer.dispose();
     this.#orbit.dispose();
     this.#renderer.dispose();
   }
@@ -383,7 +382,7 @@ export class Viewer {
       return;
     }
     this.#guide?.stop();
-    this.releaseMouse();
+    this.pointer.release();
     this.#returnToOrbit();
   }
 

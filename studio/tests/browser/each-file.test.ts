@@ -1,10 +1,14 @@
 /** Each file of a place is missing, cut short or slow, and the server goes away: the page goes on and says so. */
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Browser, Page, Route } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { addAnimal } from "../fixture/animal.mjs";
+import { makePlace } from "../fixture/make-place.mjs";
 import { addPhotos, addPoints, editPlace } from "../fixture/photos.mjs";
+import { makeRaster } from "../fixture/raster.mjs";
 import { makeRooms } from "../fixture/rooms.mjs";
+import { addWalk } from "../fixture/walk.mjs";
 import { launch, MISSING } from "./chromium.ts";
 import { open, stateOf } from "./page.ts";
 import { makeSite, type Site } from "./site.ts";
@@ -20,13 +24,20 @@ describe.skipIf(MISSING !== null)("of a place that is served badly", () => {
     addPhotos(site.folder, [{ eye: [5, -14, 1.7], target: [5, 0, 5] }]);
     addPoints(site.folder, [[1, -1, 1], [2, -1, 2], [3, -1, 1]]);
     makeRooms(join(site.folder, "rooms"));
+    makeRaster(join(site.folder, "map"));
+    for (const [name, add] of [["stroll", addWalk], ["beast", addAnimal]] as const) {
+      const folder = join(site.folder, name);
+      mkdirSync(folder);
+      makePlace(folder);
+      add(folder);
+    }
   });
   afterAll(async () => {
     await browser.close();
     await site.close();
   });
 
-  /** The files of both places, where each is asked for, and the keys after which it is. */
+  /** The files of some places, where each is asked for, and the keys after which it is. */
   const files: readonly (readonly [string, string, readonly string[]])[] = [
     ["place.json", "/", []],
     ["house-1/model.glb", "/", []],
@@ -35,6 +46,10 @@ describe.skipIf(MISSING !== null)("of a place that is served badly", () => {
     ["rooms/place.json", "/?place=rooms/", []],
     ["rooms/house.glb", "/?place=rooms/", []],
     ["rooms/plan.json", "/?place=rooms/", []],
+    ["stroll/walk/key-0.png", "/?place=stroll/", []],
+    ["stroll/walk/way-1-forth.glb", "/?place=stroll/", []],
+    ["beast/animal/model.glb", "/?place=beast/", []],
+    ["map/map.glb", "/?place=map/", []],
   ];
 
   const missing = async (route: Route): Promise<void> => await route.fulfill({ status: 404, body: "not there" });
@@ -67,7 +82,7 @@ describe.skipIf(MISSING !== null)("of a place that is served badly", () => {
   for (const [file, path, keys] of files) {
     for (const [how, way] of [["is missing", missing], ["is cut short", cut]] as const) {
       it(`names ${file} where it ${how}`, async () => {
-        const name = file.replace("rooms/", "");
+        const name = file.replace(/^(rooms|stroll|beast|map)\//, "");
         const { page, errors } = await opened(file, path, keys, async (route) => await way(route, file));
         await page.getByText(name).first().waitFor({ state: "attached", timeout: 30_000 });
         expect(errors).toEqual([]);
@@ -79,6 +94,25 @@ describe.skipIf(MISSING !== null)("of a place that is served badly", () => {
       expect(await stateOf(page)).toBe("ready");
       await page.waitForFunction(() => window.veduta?.stats().loading === 0);
       expect(await page.evaluate(() => window.veduta?.stats().missing)).toEqual([]);
+      expect(errors).toEqual([]);
+      await page.context().close();
+    });
+  }
+
+  for (const [file, path, keys] of [
+    ["pictures/1.png", "/", ["n"]],
+    ["rooms/plan.json", "/?place=rooms/", []],
+    ["stroll/walk/key-0.png", "/?place=stroll/", []],
+    ["stroll/walk/way-1-back.glb", "/?place=stroll/", []],
+  ] as const) {
+    it(`takes ${file} when it comes after all`, async () => {
+      const { page, errors } = await opened(file, path, keys, missing);
+      await page.waitForFunction(() => (window.veduta?.stats().missing.length ?? 0) > 0);
+      await page.unroute(`**/${file}`);
+      const came = page.waitForResponse((answer) => answer.url().endsWith(file) && answer.ok());
+      await page.getByRole("button", { name: "Ask now" }).click();
+      await came;
+      await page.waitForFunction(() => window.veduta?.stats().missing.length === 0 && window.veduta.stats().loading === 0);
       expect(errors).toEqual([]);
       await page.context().close();
     });

@@ -37,8 +37,14 @@ describe("what a machine is asked to draw", () => {
     expect(budgetOf({ parts: ground }, { isSmall: false }).tileError_px).toBe(4);
   });
 
-  it("asks a phone for a quarter of the shadow's pixels", () => {
-    const [phone, desk] = [true, false].map((isSmall) => budgetOf({ parts: [] }, { isSmall }).shadowSide_px(100));
-    expect(((desk ?? 0) / (phone ?? 1)) ** 2).toBe(4);
+  it("asks a phone for a quarter of the shadow's pixels over a house, and nobody for more over a wide place", () => {
+    const side = (isSmall: boolean, radius_m: number): number => budgetOf({ parts: [] }, { isSmall }).shadowSide_px(radius_m);
+    expect((side(false, 10) / side(true, 10)) ** 2).toBe(4);
+    expect([side(false, 100), side(true, 100)]).toEqual([2048, 2048]);
+  });
+
+  it("makes pictures smaller for a phone alone", () => {
+    expect(budgetOf({ parts: [] }, { isSmall: true }).mostTexture_px).toBe(2048);
+    expect(budgetOf({ parts: [] }, { isSmall: false }).mostTexture_px).toBe(Infinity);
   });
 });

@@ -35,7 +35,7 @@ class Pauses implements Surroundings {
 const during =
   (pauses: Surroundings): Bringing =>
   (parts, fetch, onChange) =>
-    new Arrivals(parts, [0, 0, 0], fetch, onChange, pauses);
+    new Arrivals(parts, () => ({ eye: [0, 0, 0], direction: null, half_rad: 0 }), fetch, onChange, pauses);
 
 const later = async (): Promise<void> => await new Promise((resolve) => setTimeout(resolve));
 

@@ -1,0 +1,89 @@
+/** Files that are wished for while one looks about: what does not come is named, and asked for again until it is there. */
+import { Asking, type Missing, PAGE, type Surroundings } from "./asking.ts";
+import { Absent, type Fault, faultOf } from "./fault.ts";
+
+export interface Wish {
+  /** Comes when the file was asked for once, whether it is there or not. */
+  readonly tried: Promise<void>;
+  /** Nobody wants it any more: it is not named, nor asked for again. What is underway is taken all the same. */
+  drop(): void;
+}
+
+interface Open {
+  readonly file: string;
+  readonly attempt: () => Promise<void>;
+  fault: Fault | null;
+}
+
+export class Wishes {
+  readonly #open = new Set<Open>();
+  readonly #asking: Asking;
+  readonly #onChange: () => void;
+  #waiting = 0;
+
+  /** `onChange` is called when a file has come, or has not. */
+  constructor(onChange: () => void, around: Surroundings = PAGE) {
+    this.#onChange = onChange;
+    this.#asking = new Asking(() => this.#askAgain(), around);
+  }
+
+  /** Files on their way. */
+  get waiting(): number {
+    return this.#waiting;
+  }
+
+  /** Each once, however often it is wished for. */
+  get missing(): Missing[] {
+    const faults = new Map<string, Fault>();
+    for (const { file, fault } of this.#open) if (fault !== null) faults.set(file, fault);
+    return [...faults].map(([file, fault]) => ({ file, fault }));
+  }
+
+  /** Does not wait for the end of a pause. */
+  askNow(): void {
+    this.#asking.now();
+  }
+
+  /** `take` gets what `load` brings, at once or later. What is broken is named, but not loaded again. */
+  bring<T>(file: string, load: () => Promise<T>, take: (brought: T) => void): Wish {
+    const wish: Open = {
+      file,
+      fault: null,
+      attempt: async () => {
+        const brought = await load();
+        this.#open.delete(wish);
+        take(brought);
+      },
+    };
+    this.#open.add(wish);
+    return {
+      tried: this.#try(wish),
+      drop: () => {
+        if (this.#open.delete(wish) && wish.fault !== null) this.#onChange();
+      },
+    };
+  }
+
+  dispose(): void {
+    this.#open.clear();
+    this.#asking.dispose();
+  }
+
+  async #try(wish: Open): Promise<void> {
+    this.#waiting += 1;
+    try {
+      await wish.attempt();
+      this.#asking.succeeded();
+    } catch (error) {
+      wish.fault = faultOf(error);
+      // What is broken is as broken the next time.
+      if (wish.fault instanceof Absent && this.#open.has(wish)) this.#asking.failed();
+    }
+    this.#waiting -= 1;
+    this.#onChange();
+  }
+
+  #askAgain(): void {
+    for (const wish of [...this.#open]) if (wish.fault instanceof Absent) void this.#try(wish);
+  }
+}
