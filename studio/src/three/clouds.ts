@@ -1,15 +1,12 @@
 /** Clouds of points, in their own colours. */
 import { type BufferGeometry, Group, Points, PointsMaterial, Vector3 } from "three";
-import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { Asking, type Missing, PAGE, type Surroundings } from "../core/asking.ts";
 import { Absent, Fault, faultOf } from "../core/fault.ts";
 import { drawnFromModel, worldFromDrawn } from "../core/frames.ts";
 import { type Cloud, fileAddress } from "../core/place.ts";
 import type { Layer } from "../core/state.ts";
 import { fetchBytes } from "./fetch.ts";
-
-const MAGIC = "ply";
-const REMEDY = "Write the place again, for example with `veduta photos`.";
+import { PointReader } from "./points.ts";
 
 /** The clouds of a place on their way, one after the other. One that does not come is asked for again; one that is broken is left out. */
 export class CloudArrivals {
@@ -19,6 +16,7 @@ export class CloudArrivals {
   readonly #manifest: URL;
   readonly #onChange: () => void;
   readonly #asking: Asking;
+  readonly #reader = new PointReader();
   readonly #missing = new Map<number, Fault>();
   #tried = 0;
 
@@ -76,7 +74,7 @@ export class CloudArrivals {
     const bytes = await fetchBytes(fileAddress(cloud.file, this.#manifest), cloud.file, (got, total) => {
       onShare(total === null ? 0.5 : got / total);
     });
-    return readPoints(bytes, cloud);
+    return await this.#reader.read(bytes, cloud);
   }
 }
 
@@ -139,21 +137,4 @@ function makeMaterial(): PointsMaterial {
     // The photos' colours as they are.
     toneMapped: false,
   });
-}
-
-/** The points of a file; a fault where it has others than the place says. */
-export function readPoints(bytes: ArrayBuffer, { file, count }: Pick<Cloud, "file" | "count">): BufferGeometry {
-  const magic = new TextDecoder().decode(bytes.slice(0, MAGIC.length));
-  if (magic !== MAGIC) throw new Fault(file, "it is not a PLY file", REMEDY);
-  try {
-    const geometry = new PLYLoader().parse(bytes);
-    if (!geometry.hasAttribute("position")) throw new Error("it has no points");
-    const read = geometry.getAttribute("position");
-    const isWhole = read.array.every((value) => Number.isFinite(value));
-    if (!isWhole || (count !== null && read.count < count)) throw new Error("it is cut short");
-    return geometry;
-  } catch (error) {
-    const words = error instanceof Error ? error.message : String(error);
-    throw new Fault(file, `the points cannot be read (${words})`, REMEDY);
-  }
 }

@@ -2,7 +2,8 @@ import { Group } from "three";
 import { afterEach, describe, expect, it, vi } from "vitest";
 import type { Layer } from "../../src/core/state.ts";
 import type { Cloud } from "../../src/core/place.ts";
-import { CloudArrivals, readPoints, showClouds } from "../../src/three/clouds.ts";
+import { CloudArrivals, showClouds } from "../../src/three/clouds.ts";
+import { readPoints } from "../../src/three/points.ts";
 import { Fake } from "./surroundings.ts";
 
 /** Which of the clouds of these layers are seen, some layers being off. */
