@@ -1,5 +1,5 @@
 /** The triangles of parts in the world frame, and whose each of them is: what a `Solid` is made of. */
-import { BufferAttribute, Vector3 } from "three";
+import { BufferAttribute, type InterleavedBufferAttribute, Vector3 } from "three";
 import { worldFromDrawn } from "../core/frames.ts";
 import { fillTriangles, type Piece } from "../core/triangles.ts";
 import { boxOf, type InstancedFeatures, placeOf } from "./instanced-mesh.ts";
@@ -74,8 +74,8 @@ export function piecesOf(parts: readonly Soupable[]): Piece[] {
   );
 }
 
-/** Three floats per vertex: models may keep them as integers, or between other attributes. */
-function plain(attribute: BufferAttribute): Float32Array {
+/** Three floats per vertex, as a worker takes them: models may keep them as integers, or between other attributes. */
+export function plain(attribute: BufferAttribute | InterleavedBufferAttribute): Float32Array {
   const { array, count } = attribute;
   if (array instanceof Float32Array && array.length === 3 * count) return array;
   const found = new Float32Array(3 * count);

@@ -14,7 +14,8 @@ import {
 import { isProvenance, isSemanticClass, type Provenance, type SemanticClass } from "../core/classes.ts";
 import { worldFromDrawn } from "../core/frames.ts";
 import type { TileTable } from "../core/tile-table.ts";
-import type { Soup } from "./soup.ts";
+import type { Piece } from "../core/triangles.ts";
+import { plain, type Soup } from "./soup.ts";
 
 type Column = BufferAttribute | InterleavedBufferAttribute;
 
@@ -65,6 +66,11 @@ export class TileModel {
     return hit.face ? rowAt(mesh, hit.face.a) : null;
   }
 
+  /** What one bumps into, as a worker takes it. */
+  pieces(): Piece[] {
+    return this.meshes.flatMap(({ mesh }) => piecesOf(mesh));
+  }
+
   /** The faces of one surface, or of all; positions in the world frame. */
   soup(row: number | null): Soup {
     const positions: number[] = [];
@@ -81,6 +87,23 @@ export class TileModel {
       instances: [],
     };
   }
+}
+
+/** The meshes and all their instances, which share their vertices. */
+function piecesOf(mesh: Mesh): Piece[] {
+  const { geometry } = mesh;
+  const position = geometry.getAttribute("position");
+  const index = geometry.getIndex();
+  const shared = {
+    positions: plain(position),
+    faces: index === null ? Uint32Array.from({ length: position.count }, (_, k) => k) : Uint32Array.from(index.array),
+  };
+  if (!isInstanced(mesh)) return [{ ...shared, drawnFromMesh: mesh.matrixWorld.toArray() }];
+  const matrix = new Matrix4();
+  return Array.from({ length: mesh.count }, (_, instance) => {
+    mesh.getMatrixAt(instance, matrix);
+    return { ...shared, drawnFromMesh: matrix.premultiply(mesh.matrixWorld).toArray() };
+  });
 }
 
 function isMesh(node: Object3D): node is Mesh {

@@ -33,10 +33,11 @@ import { layGround } from "./ground-material.ts";
 import { type Hit, Solid } from "./solid.ts";
 import { SharedImages } from "./shared-images.ts";
 import { TileModel } from "./tile-model.ts";
+import { TileSolids } from "./tile-solids.ts";
 
 const COLOURING_STRENGTH = 0.78;
-/** Obstacles of so many tiles are kept. */
-const MOST_SOLIDS = 6;
+/** Whoever walks bumps into nothing of what is farther away before he has walked for some seconds (m). */
+const AHEAD_M = 15;
 /** After so many rounds in which nothing is on its way nothing will come. */
 const CALM_ROUNDS = 20;
 /** Plainer tiles than with an error of so much on the screen there are not. */
@@ -46,15 +47,24 @@ const FIRST_PLAINER = 8;
 /** Of a tile that was dropped; what is chosen keeps its number. */
 const GONE: FeatureTable = { rows: [] };
 
+/** A tile that is there. */
+interface Loaded {
+  readonly model: TileModel;
+  readonly part: number;
+  readonly tile: Tile;
+  /** Around it, world frame; null before anybody has asked. */
+  box: Box3 | null;
+}
+
 export class Town implements Obstacles {
   readonly group = new Group();
   bounds: Box = { min: [-1, -1, 0], max: [1, 1, 1] };
   readonly tables: FeatureTable[] = [];
   readonly #tiles: FlatTiles;
-  readonly #models = new Map<Object3D, { model: TileModel; part: number; tile: Tile }>();
+  readonly #models = new Map<Object3D, Loaded>();
   readonly #floors = new Map<Object3D, Solid>();
   readonly #byPart: (TileModel | undefined)[] = [];
-  readonly #solids = new Map<Object3D, Solid>();
+  readonly #solids = new TileSolids();
   readonly #images: SharedImages;
   readonly #onChange: () => void;
   readonly #error_px: number;
@@ -182,7 +192,9 @@ export class Town implements Obstacles {
   update(camera: PerspectiveCamera, renderer: WebGLRenderer): void {
     camera.updateMatrixWorld();
     this.#tiles.setResolutionFromRenderer(camera, renderer);
-    this.#tiles.standAt(worldFromDrawn(camera.position.toArray()));
+    const eye = worldFromDrawn(camera.position.toArray());
+    this.#tiles.standAt(eye);
+    if (this.#state?.mode === "walk") this.#growAhead(eye);
     this.#advance();
   }
 
@@ -261,6 +273,7 @@ export class Town implements Obstacles {
 
   dispose(): void {
     this.#asking.dispose();
+    this.#solids.dispose();
     this.#tiles.dispose();
     this.#images.dispose();
   }
@@ -300,7 +313,7 @@ export class Town implements Obstacles {
       const part = this.#byPart.length;
       this.#byPart.push(model);
       this.tables.push(model.table);
-      this.#models.set(scene, { model, part, tile });
+      this.#models.set(scene, { model, part, tile, box: null });
       if (model.meshes.every(({ kind }) => kind === "ground")) {
         this.#floors.set(scene, this.#inPlace(scene, () => new Solid(model.soup(null))));
         for (const { mesh } of model.meshes) layGround(mesh);
@@ -320,7 +333,7 @@ export class Town implements Obstacles {
       this.tables[known.part] = GONE;
     }
     this.#models.delete(scene);
-    this.#solids.delete(scene);
+    this.#solids.drop(scene);
     this.#floors.delete(scene);
   }
 
@@ -345,16 +358,28 @@ export class Town implements Obstacles {
       new Vector3(feet[0] - body.radius_m, feet[1] - body.radius_m, feet[2]),
       new Vector3(feet[0] + body.radius_m, feet[1] + body.radius_m, feet[2] + body.height_m),
     );
-    for (const [scene, { model, tile }] of this.#models) {
+    for (const [scene, { model }] of this.#within(reach)) {
+      yield this.#inPlace(scene, () => this.#solids.of(scene, model));
+    }
+  }
+
+  /** What can be walked against and stands within a box, world frame. */
+  *#within(reach: Box3): Generator<[Object3D, Loaded]> {
+    for (const [scene, known] of this.#models) {
+      const { tile } = known;
       // Where nothing finer has come yet, what is drawn stops a walker, too.
       const isWalkable = tile.geometricError <= WALKABLE_ERROR_M ? !this.#isCovered(tile) : this.#tiles.visibleTiles.has(tile);
       if (!isWalkable) continue;
-      const box = this.#inPlace(scene, () => new Box3().setFromObject(scene));
-      const low = worldFromDrawn(box.min.toArray());
-      const high = worldFromDrawn(box.max.toArray());
-      const own = new Box3().setFromPoints([new Vector3(...low), new Vector3(...high)]);
-      if (!own.intersectsBox(reach)) continue;
-      yield this.#solidOf(scene, model);
+      known.box ??= this.#inPlace(scene, () => worldBoxOf(scene));
+      if (known.box.intersectsBox(reach)) yield [scene, known];
+    }
+  }
+
+  /** Lets a worker grow what a walker may soon bump into. */
+  #growAhead(eye: Vec3): void {
+    const reach = new Box3().setFromCenterAndSize(new Vector3(...eye), new Vector3(2 * AHEAD_M, 2 * AHEAD_M, 2 * AHEAD_M));
+    for (const [scene, { model }] of this.#within(reach)) {
+      if (!this.#solids.has(scene)) this.#inPlace(scene, () => this.#solids.growAhead(scene, model));
     }
   }
 
@@ -364,16 +389,6 @@ export class Town implements Obstacles {
     if (above === null || above.geometricError > WALKABLE_ERROR_M) return false;
     const { scene } = (above as unknown as { engineData: { scene: Object3D | null } }).engineData;
     return scene !== null && this.#models.has(scene);
-  }
-
-  #solidOf(scene: Object3D, model: TileModel): Solid {
-    const known = this.#solids.get(scene);
-    if (known !== undefined) return known;
-    const solid = this.#inPlace(scene, () => new Solid(model.soup(null)));
-    this.#solids.set(scene, solid);
-    const [oldest] = this.#solids.keys();
-    if (this.#solids.size > MOST_SOLIDS && oldest !== undefined) this.#solids.delete(oldest);
-    return solid;
   }
 
   /** A tile that is loaded but not drawn hangs nowhere: where it stands shows below the group only. */
@@ -407,6 +422,12 @@ function dress(model: TileModel, state: StudioState): void {
     const look = state.colouring === "class" ? CLASS_LOOKS[kind] : PROVENANCE_LOOKS[provenance];
     material.color.lerp(new Color().setStyle(look.colour, SRGBColorSpace), COLOURING_STRENGTH);
   }
+}
+
+function worldBoxOf(scene: Object3D): Box3 {
+  const { min, max } = new Box3().setFromObject(scene);
+  const corners = [min, max].map((corner) => new Vector3(...worldFromDrawn(corner.toArray())));
+  return new Box3().setFromPoints(corners);
 }
 
 function added(a: Vec3, b: Vec3): Vec3 {

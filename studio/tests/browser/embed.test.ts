@@ -67,12 +67,4 @@ describe.skipIf(MISSING !== null)("an exported folder in a frame", () => {
     await plain.getByText("does not allow full screen here").waitFor();
     await other.context().close();
   });
-
-  it("catches the mouse where it is asked to", async () => {
-    const { page, frame } = await embedded("/");
-    await frame.locator("canvas").first().click({ position: { x: 320, y: 100 } });
-    await page.keyboard.press("m");
-    await frame.locator(".crosshair").or(frame.getByText("The browser keeps the mouse")).first().waitFor({ state: "attached" });
-    await page.context().close();
-  });
 });

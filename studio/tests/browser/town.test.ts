@@ -2,7 +2,7 @@
  * Opens a town that is streamed, at $VEDUTA_TOWN_URL: `tests/integration/test_streamed_town.py` derives
  * one and serves it with `veduta view`.
  */
-import type { Page } from "playwright-core";
+import type { Page, Route } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import type { Vec3 } from "../../src/core/vector.ts";
 import { findings } from "./axe.ts";
@@ -158,4 +158,54 @@ describe.skipIf(MISSING !== null || url === undefined)("a town of tiles", () => 
       await browser.close();
     }
   }, 400_000);
+
+  /** Opens the town while files of this kind come in a way of their own. */
+  async function servedBadly(files: string, how: (route: Route) => Promise<void>, look: (page: Page) => Promise<void>): Promise<void> {
+    const browser = await launch();
+    try {
+      const page = await (await browser.newContext({ viewport: { width: 500, height: 320 }, deviceScaleFactor: 0.4, serviceWorkers: "block" })).newPage();
+      const errors: string[] = [];
+      page.on("pageerror", (error) => errors.push(error.message));
+      await page.route(files, how);
+      await page.goto(url ?? "");
+      await page.waitForFunction(() => document.documentElement.dataset.veduta !== undefined, undefined, { timeout: PATIENCE_MS });
+      await look(page);
+      expect(errors).toEqual([]);
+    } finally {
+      await browser.close();
+    }
+  }
+
+  it("names its tree of tiles where that is missing", async () => {
+    await servedBadly("**/tileset.json", async (route) => await route.fulfill({ status: 404, body: "not there" }), async (page) => {
+      expect(await stateOf(page)).toBe("error");
+      expect(await page.getByRole("alert").textContent()).toContain("tileset.json");
+    });
+  }, 200_000);
+
+  it("names tiles that are cut short, and shows what it has of the place", async () => {
+    const cut = async (route: Route): Promise<void> => {
+      const body = await (await route.fetch()).body();
+      await route.fulfill({ status: 200, body: body.subarray(0, Math.floor(body.length / 2)) });
+    };
+    await servedBadly("**/*-full.glb", cut, async (page) => {
+      expect(await stateOf(page)).toBe("ready");
+      await page.keyboard.press("2");
+      await page.waitForFunction(() => (window.veduta?.stats().missing.length ?? 0) > 0, undefined, { timeout: PATIENCE_MS });
+      expect((await page.evaluate(() => window.veduta?.stats().missing))?.join()).toContain("-full.glb");
+      expect(await page.evaluate(() => window.veduta?.stats().tiles)).toBeGreaterThan(0);
+    });
+  }, 300_000);
+
+  it("shows all where its tiles are slow", async () => {
+    const late = async (route: Route): Promise<void> => {
+      await new Promise((resolve) => setTimeout(resolve, 1000));
+      await route.continue();
+    };
+    await servedBadly("**/*.glb", late, async (page) => {
+      expect(await stateOf(page)).toBe("ready");
+      await page.waitForFunction(() => window.veduta?.stats().loading === 0, undefined, { timeout: PATIENCE_MS });
+      expect(await page.evaluate(() => window.veduta?.stats().missing)).toEqual([]);
+    });
+  }, 300_000);
 });

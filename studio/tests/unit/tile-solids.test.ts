@@ -1,0 +1,97 @@
+import { BufferAttribute, BufferGeometry, Group, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial } from "three";
+import { beforeAll, describe, expect, it, vi } from "vitest";
+import type { TileTable } from "../../src/core/tile-table.ts";
+import type { Help } from "../../src/three/helper.ts";
+import { Solid } from "../../src/three/solid.ts";
+import type { Asked, Grown } from "../../src/three/soup-worker.ts";
+import { TileModel } from "../../src/three/tile-model.ts";
+import { TileSolids } from "../../src/three/tile-solids.ts";
+
+interface Scope {
+  onmessage: (event: { data: Asked }) => void;
+  postMessage: (grown: Grown) => void;
+}
+const scope = globalThis as unknown as Scope;
+
+beforeAll(async () => {
+  await import("../../src/three/soup-worker.ts");
+});
+
+const BODY = { radius_m: 0.3, height_m: 1.8, eye_m: 1.7, step_m: 0.25 };
+
+/** A wall of 8 x 4 m and three posts before it, as a tile has them: quantised, and instanced. */
+function tile(): TileModel {
+  const wall = new BufferGeometry();
+  wall.setAttribute("position", new BufferAttribute(new Int16Array([0, 0, 0, 8, 0, 0, 8, 4, 0, 0, 4, 0]), 3));
+  wall.setIndex([0, 1, 2, 0, 2, 3]);
+  const post = new BufferGeometry();
+  post.setAttribute("position", new BufferAttribute(new Float32Array([0, 0, 0, 0.4, 0, 0, 0.2, 3, 0]), 3));
+  const posts = new InstancedMesh(post, new MeshStandardMaterial(), 3);
+  for (const k of [0, 1, 2]) posts.setMatrixAt(k, new Matrix4().makeTranslation(1 + 3 * k, 0, 2));
+  const scene = new Group().add(new Mesh(wall, new MeshStandardMaterial()), posts);
+  scene.position.set(10, 0, -5);
+  scene.updateMatrixWorld(true);
+  return new TileModel(scene, {} as TileTable);
+}
+
+/** The real worker's program; it answers when the test says so. */
+function helpHere(): Help & { answer: () => void; asked: number } {
+  let waiting: Asked | null = null;
+  const help = {
+    asked: 0,
+    onmessage: null as Help["onmessage"],
+    onerror: null as Help["onerror"],
+    onmessageerror: null as Help["onmessageerror"],
+    terminate: () => undefined,
+    postMessage: (message: Asked) => {
+      help.asked += 1;
+      waiting = structuredClone(message);
+    },
+    answer: () => {
+      scope.postMessage = (grown) => help.onmessage?.call(undefined as never, { data: structuredClone(grown) } as MessageEvent);
+      if (waiting !== null) scope.onmessage({ data: waiting });
+    },
+  };
+  return help;
+}
+
+describe("the solids of tiles", () => {
+  it("are those of all faces, whether grown here or in a worker", async () => {
+    const model = tile();
+    const whole = new Solid(model.soup(null));
+    const help = helpHere();
+    const ahead = new TileSolids(() => help);
+    ahead.growAhead(model.scene, model);
+    ahead.growAhead(model.scene, model);
+    expect(help.asked).toBe(1);
+    help.answer();
+    const here = new TileSolids(() => null).of(model.scene, model);
+    await vi.waitFor(() => expect(ahead.of(model.scene, model).faceCount).toBe(5));
+    for (const solid of [here, ahead.of(model.scene, model)]) {
+      expect(solid.bounds).toEqual(whole.bounds);
+      for (const [x, y] of [[14, 4.9], [11.2, 2.9], [30, 4]] as const) {
+        expect(solid.pushOut([x, y, 0], BODY)).toEqual(whole.pushOut([x, y, 0], BODY));
+      }
+    }
+  });
+
+  it("are there at once where nobody has grown them, and the worker's is not wanted then", async () => {
+    const model = tile();
+    const help = helpHere();
+    const solids = new TileSolids(() => help);
+    solids.growAhead(model.scene, model);
+    const own = solids.of(model.scene, model);
+    help.answer();
+    await Promise.resolve();
+    expect(solids.of(model.scene, model)).toBe(own);
+    solids.drop(model.scene);
+    expect(solids.has(model.scene)).toBe(false);
+  });
+
+  it("are kept of the last few alone", () => {
+    const solids = new TileSolids(() => null);
+    const all = Array.from({ length: 8 }, tile);
+    for (const model of all) solids.of(model.scene, model);
+    expect(all.map(({ scene }) => solids.has(scene))).toEqual([false, false, true, true, true, true, true, true]);
+  });
+});
