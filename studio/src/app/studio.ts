@@ -44,6 +44,7 @@ import "./tour-panel.ts";
 import { isTyping } from "./typing.ts";
 import { hintOf, titleOf } from "./words.ts";
 
+const UNCOUNTED: Counted = { classes: new Map(), provenances: new Map() };
 const LOST = "The browser took the graphics card away from this page; the picture comes back with it";
 
 export class Studio extends LitElement {
@@ -297,9 +298,10 @@ export class Studio extends LitElement {
       @change-animal=${this.#asks("animal")}></veduta-animal-panel>`;
   }
 
-  /** What of a streamed place is drawn now, as the panel counts it. */
+  /** What of a streamed place is drawn now, as the panel counts it; nothing while nobody sees the panel. */
   #counted({ town }: Session): Counted | null {
-    if (town === null || !this.layersOpen) return null;
+    if (town === null) return null;
+    if (!this.layersOpen) return UNCOUNTED;
     return { classes: town.counts(), provenances: town.provenances() };
   }
 

@@ -45,7 +45,7 @@ export class TileTable implements FeatureTable {
   readonly #height: Uint16Array | null;
   readonly #ids: readonly string[];
   readonly #names: readonly string[];
-  #rows: readonly Feature[] | null = null;
+  #rows: WeakRef<readonly Feature[]> | null = null;
   #counts: ReadonlyMap<SemanticClass, number> | null = null;
 
   /** `metadata` is the extension of the document's root; it may come from anywhere. */
@@ -85,10 +85,13 @@ export class TileTable implements FeatureTable {
     this.#names = texts(buildings, "name", views);
   }
 
-  /** All rows as features; made once. */
+  /** All rows as features. They take ten times what the columns do, so nobody keeps them who does not use them. */
   get rows(): readonly Feature[] {
-    this.#rows ??= Array.from({ length: this.count }, (_, row) => this.#feature(row));
-    return this.#rows;
+    const known = this.#rows?.deref();
+    if (known !== undefined) return known;
+    const made = Array.from({ length: this.count }, (_, row) => this.#feature(row));
+    this.#rows = new WeakRef(made);
+    return made;
   }
 
   classOf(row: number): SemanticClass {

@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, Group, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial } from "three";
 import { beforeAll, describe, expect, it, vi } from "vitest";
-import type { TileTable } from "../../src/core/tile-table.ts";
+import { TileTable } from "../../src/core/tile-table.ts";
 import type { Help } from "../../src/three/helper.ts";
 import { Solid } from "../../src/three/solid.ts";
 import type { Asked, Grown } from "../../src/three/soup-worker.ts";
@@ -31,7 +31,8 @@ function tile(): TileModel {
   const scene = new Group().add(new Mesh(wall, new MeshStandardMaterial()), posts);
   scene.position.set(10, 0, -5);
   scene.updateMatrixWorld(true);
-  return new TileModel(scene, {} as TileTable);
+  const table = new TileTable({ schema: { enums: {} }, propertyTables: [{ class: "surface", count: 0, properties: {} }, { class: "building", count: 0, properties: {} }] }, () => new Uint8Array(), "a.glb");
+  return new TileModel(scene, table);
 }
 
 /** The real worker's program; it answers when the test says so. */
@@ -48,7 +49,9 @@ function helpHere(): Help & { answer: () => void; asked: number } {
       waiting = structuredClone(message);
     },
     answer: () => {
-      scope.postMessage = (grown) => help.onmessage?.call(undefined as never, { data: structuredClone(grown) } as MessageEvent);
+      scope.postMessage = (grown) => {
+        help.onmessage?.call(undefined as never, { data: structuredClone(grown) } as MessageEvent);
+      };
       if (waiting !== null) scope.onmessage({ data: waiting });
     },
   };
