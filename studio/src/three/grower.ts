@@ -1,5 +1,5 @@
 /** Makes solids of parts: small ones at once, large ones in a worker while the page goes on. */
-import { type Help, Helper, hired } from "./helper.ts";
+import { type Help, Helper, hired } from "./hired.ts";
 import { Solid } from "./solid.ts";
 import { boxesOf, ownersOf, piecesOf, type Soupable, soupOf } from "./soup.ts";
 import type { Asked, Grown } from "./soup-worker.ts";

@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry, type TypedArray } from "three";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { Fault } from "../core/fault.ts";
 import type { Cloud } from "../core/place.ts";
-import { type Help, Helper, hired } from "./helper.ts";
+import { type Help, Helper, hired } from "./hired.ts";
 import type { Points, PointsAsked } from "./points-worker.ts";
 
 const MAGIC = "ply";

@@ -1,7 +1,7 @@
 /** What one bumps into in a town: solids of the tiles near by, grown in a worker before one gets there. */
 import type { Object3D } from "three";
 import { fillTriangles, type Piece } from "../core/triangles.ts";
-import { type Help, Helper, hired } from "./helper.ts";
+import { type Help, Helper, hired } from "./hired.ts";
 import { Solid } from "./solid.ts";
 import type { Asked, Grown } from "./soup-worker.ts";
 import type { TileModel } from "./tile-model.ts";

@@ -1,7 +1,7 @@
 import { BufferAttribute, BufferGeometry, Matrix4, Mesh } from "three";
 import { beforeAll, describe, expect, it } from "vitest";
 import { Grower } from "../../src/three/grower.ts";
-import type { Help } from "../../src/three/helper.ts";
+import type { Help } from "../../src/three/hired.ts";
 import { Solid } from "../../src/three/solid.ts";
 import { soupOf, type Soupable } from "../../src/three/soup.ts";
 import type { Asked, Grown } from "../../src/three/soup-worker.ts";

@@ -1,6 +1,6 @@
 import type { BufferGeometry } from "three";
 import { beforeAll, describe, expect, it } from "vitest";
-import type { Help } from "../../src/three/helper.ts";
+import type { Help } from "../../src/three/hired.ts";
 import { PointReader, readPoints } from "../../src/three/points.ts";
 import type { Points, PointsAsked } from "../../src/three/points-worker.ts";
 

@@ -1,7 +1,7 @@
 import { BufferAttribute, BufferGeometry, Group, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial } from "three";
 import { beforeAll, describe, expect, it, vi } from "vitest";
 import { TileTable } from "../../src/core/tile-table.ts";
-import type { Help } from "../../src/three/helper.ts";
+import type { Help } from "../../src/three/hired.ts";
 import { Solid } from "../../src/three/solid.ts";
 import type { Asked, Grown } from "../../src/three/soup-worker.ts";
 import { TileModel } from "../../src/three/tile-model.ts";
