@@ -23,6 +23,8 @@ Cell = float | int | str | None
 COLUMNS = (
     "from, to", "kind", "m", "Psi", "predicted dB", "unmoved dB", "energy", "by ICM", "bound",
 )  # fmt: skip
+MUCH_MOVES = 0.15
+"""Of a view: more is rarely a thing that moves, and often a wrong depth."""
 NOTE = (
     "Psi: share of the picture in which the two views were found to show the same. Predicted and"
     " unmoved: how near the next view is to its prediction, and to the view before it as it is"
@@ -117,11 +119,18 @@ def tell_walk(
     )
 
 
+def moving_or_wrong(there: float, gone: float) -> str:
+    """What two views contradict each other by; there, gone: shares of both that seem to move."""
+    if max(there, gone) > MUCH_MOVES:
+        return "something moves, or a depth of one of them is wrong"
+    return "something moves"
+
+
 def _tell_moving(work: Work, names: str, way: Way) -> None:
     there, gone = way.moving
     work.doubt(
-        f"{names}: something moves, in {there:.1%} of the one view and {gone:.1%} of the other:"
-        " it is shown where each took it, and left out between"
+        f"{names}: {moving_or_wrong(there, gone)}, in {there:.1%} of the one view and"
+        f" {gone:.1%} of the other: it is shown where each took it, and left out between"
     )
     if way.shown is not None:
         work.picture(f"What moves, {names}", "red: not there any more in the next view", way.shown)

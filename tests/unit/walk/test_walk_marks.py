@@ -26,6 +26,7 @@ from veduta.walk.build.water import find_water
 from veduta.walk.command import run_walk
 from veduta.walk.options import WalkOptions
 from veduta.walk.rig import Rig, StereoPair
+from veduta.walk.tell import moving_or_wrong
 
 SMALL = GorgeWalk(keys=2, step_m=2.0, width_px=288, height_px=180)
 Mask = NDArray[np.bool_]
@@ -185,3 +186,8 @@ def test_an_upright_wall_that_looks_the_same_above_and_below_is_no_water() -> No
     everywhere = np.ones((160, 240), dtype=bool)
     found = find_water(image, rays * depth[..., None], everywhere, ~everywhere, screen)
     assert not found.any()
+
+
+def test_where_much_seems_to_move_a_wrong_depth_is_named_too() -> None:
+    assert moving_or_wrong(0.02, 0.14) == "something moves"
+    assert "a depth of one of them is wrong" in moving_or_wrong(0.0, 0.25)
