@@ -13,6 +13,7 @@ from veduta.photos.intake.from_colmap import HOW, given_model
 from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos
 from veduta.photos.mapping.at_once import require_focal_lengths
 from veduta.photos.mapping.mapping import left_out
+from veduta.photos.mapping.rigs import mapped_with_rig
 from veduta.photos.mapping.settling import Settled, map_settled
 from veduta.photos.matching.features import FeaturesJob, memory_of, run_features
 from veduta.photos.matching.match import (
@@ -79,6 +80,7 @@ def find_components(
         step.counts |= {"pairs": len(told.pairs), "verified": verified}
     with timed_step(told.steps, "map") as step:
         settled = _map(read, options, stages, progress)
+        settled, told.rig = mapped_with_rig(settled, read.photos, options, stages, progress)
         mapped, told.doubts, told.folded = settled.mapped, settled.dropped, settled.folded
         told.starts = mapped.starts
         step.counts |= {"components": len(mapped.models), "doubtful pairs": len(told.doubts)}
@@ -90,7 +92,8 @@ def find_components(
             raise NotFoundError("cameras", "no photos hang together", _NOTHING_HANGS)
     with timed_step(told.steps, "cameras") as step:
         names = {photo.image_id: photo.name for photo in read.photos}
-        grown = [structure_of(model, names) for model in mapped.models]
+        held = told.rig is not None and told.rig.held
+        grown = [replace(structure_of(model, names), rig_held=held) for model in mapped.models]
         components, left = finish_components(grown, read.photos, options, progress)
         told.left += left
         told.notes += [note for component in components for note in component.notes]

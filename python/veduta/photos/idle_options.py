@@ -45,6 +45,14 @@ def _idle(options: PhotosOptions, given: Given) -> Iterator[_Idle]:
     if given.video is None:
         fault = "is about the frames of a film, and there is no --video"
         yield _Idle("video", fault, "Name a film with --video, or leave it out.")
+    if options.camera.rig:
+        fault = "has no use with --rig: {}"
+        shared = fault.format("all photos of a folder are of one camera")
+        yield _Idle("camera", shared, "Leave one of the two out.", ("cameras",))
+        around = fault.format("a panorama is a rig of its own")
+        yield _Idle("camera", around, "Leave one of the two out.", ("panoramas",))
+        once = fault.format("its poses are found from a map that grew photo by photo")
+        yield _Idle("map", once, "Leave one of the two out.", ("mapping",))
     if options.match.pairs == "all":
         fault = "has no effect with --pairs all, which compares each photo with every other"
         yield _Idle("match", fault, "Leave one of the two out.", ("neighbours",))

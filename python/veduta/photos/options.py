@@ -71,6 +71,13 @@ class CameraOptions(Options):
     principal_point: Literal["auto", "middle", "free"] = Field(
         default="auto", description="the middle of the photo, or found with the lens"
     )
+    rig: bool = Field(
+        default=False,
+        description=(
+            "the photos were taken by cameras that are fixed to each other: DIR has a folder per"
+            " camera, with equal names for what was taken at the same moment"
+        ),
+    )
     panoramas: bool = Field(
         default=False,
         description=(

@@ -70,7 +70,7 @@ def run_photos(
     """
     require_effect(options, given)
     require_walls(options)
-    call = plan_call(folder, given)
+    call = plan_call(folder, given, rig=options.camera.rig)
     inputs: list[JsonValue] = [call.inputs(), *digests_of(options.world)]
     key = result_key(COMMAND, VERSION, options, inputs)
     with open_out(out, COMMAND, key, force=force) as opened:

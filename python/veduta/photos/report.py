@@ -14,6 +14,7 @@ from veduta.photos.laying import Laid
 from veduta.photos.mapping.doubt import Doubt
 from veduta.photos.mapping.engine import NAME, engine_version
 from veduta.photos.mapping.initial_pair import Start
+from veduta.photos.mapping.rigs import RigTold
 from veduta.photos.matching.match import PairRecord
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report_doubts import (
@@ -24,6 +25,7 @@ from veduta.photos.report_doubts import (
     doubts_table,
 )
 from veduta.photos.report_pictures import error_picture, match_picture, plan_picture
+from veduta.photos.report_rig import rig_alarms, rig_measures, rig_table
 from veduta.photos.report_starts import GLOBAL_NOTE, starts_notes, starts_table
 from veduta.photos.texture.step import Textured
 from veduta.photos.walls.report import walls_pictures, walls_table
@@ -99,6 +101,8 @@ class Told:
     """The components where they lie."""
     walls: FoundWalls = field(default_factory=lambda: FoundWalls((), ()))
     """Of the first component."""
+    rig: RigTold | None = None
+    """Where the photos were taken by one."""
     textured: Textured | None = None
     """The city model, where the first component lies in one."""
 
@@ -126,9 +130,14 @@ def measures_of(told: Told) -> dict[str, Any]:
         "principal_point": kind.principal_point,
         "seconds": round(sum(step.seconds for step in told.steps), 1),
         **({"gcp_unknown": told.marks} if told.marks else {}),
-        "alarms": [*told.alarms, *georef_alarms([one.georef for one in told.laid])],
+        "alarms": [
+            *told.alarms,
+            *rig_alarms(told.rig),
+            *georef_alarms([one.georef for one in told.laid]),
+        ],
         **georef_measures([one.georef for one in told.laid]),
         **({} if told.textured is None else told.textured.measures),
+        **rig_measures(told.rig),
     }
 
 
@@ -191,6 +200,7 @@ def photos_report(told: Told) -> tuple[Report, bytes]:
             _cameras(told),
             *_left(told),
             *doubts_table(told.doubts, _names(told)),
+            *rig_table(told.rig, component.structure, told.photos),
             *starts_table(told.starts, _image_ids(told), _names(told)),
             *_kinds(told),
         ],
@@ -239,7 +249,7 @@ def _notes(told: Told) -> list[str]:
     notes = [] if in_world else [SCALE_NOTE]
     notes += [_up_note(told.components[0]), *georef_notes(georef), *told.notes]
     notes += [f"control points, {mark}" for mark in told.marks]
-    notes += told.alarms
+    notes += [*told.alarms, *rig_alarms(told.rig)]
     notes += [] if told.textured is None else [told.textured.line]
     notes += [f"{photo.name}: {note}" for photo in told.photos for note in photo.notes]
     unknown = sum(photo.focal_px is None for photo in told.photos)

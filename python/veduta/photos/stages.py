@@ -68,6 +68,8 @@ class Stages:
         camera = self.options.camera
         fisheye = camera.lens == "fisheye"
         told: list[JsonValue] = [photos, self.options.random.seed, camera.cameras, fisheye]
+        if camera.rig:
+            told.append(None if self.call.rig is None else self.call.rig.sha256)
         key = result_key("match", VERSION, self.options.match, told)
         return self.folder / f"matches-{key[:24]}.db"
 
@@ -75,6 +77,10 @@ class Stages:
         """Components that are mapped, pairs that are doubted, and snapshots."""
         kind = self.options.map.mapping
         return self.database().with_suffix(f".{kind}.mapping")
+
+    def rig_database(self) -> Path:
+        """The engine's database with the rig in it, as the map before it told."""
+        return self.database().with_suffix(".rig.db")
 
     def drop(self) -> None:
         """The run is finished: none of it is needed any more."""

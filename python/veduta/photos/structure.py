@@ -7,13 +7,14 @@ on. `adjusted` hands them to the engine's bundle adjustment and takes the result
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pycolmap
 from numpy.typing import NDArray
 
 from veduta.photos.mapping.engine import quiet_engine
+from veduta.photos.rigged import add_rig, frames_in, rigs_among
 from veduta.run.errors import NotFoundError
 
 STRAY_SHARE = 0.02
@@ -38,7 +39,8 @@ class Structure:
     keypoints_px: (k, 2) of each photo, x right and y down.
     points: (p, 3). colours: (p, 3) uint8.
     image_of, keypoint_of, point_of: (o,) the photo (row), its keypoint and the point (row) of each
-    observation.
+    observation. frame_of: the frame of each photo that was taken with others by a rig, by image id;
+    those of one frame keep their places to each other. rig_held: these are given, and stay.
     """
 
     cameras: Mapping[int, pycolmap.Camera]
@@ -52,6 +54,8 @@ class Structure:
     image_of: NDArray[np.int64]
     keypoint_of: NDArray[np.int64]
     point_of: NDArray[np.int64]
+    frame_of: Mapping[int, int] = field(default_factory=dict)
+    rig_held: bool = False
 
     def camera(self, row: int) -> pycolmap.Camera:
         """The camera of a photo, by its row."""
@@ -74,6 +78,12 @@ class Structure:
     ) -> Structure:
         """The same, seen by other cameras."""
         return replace(self, cameras=cameras, camera_of=camera_of)
+
+    def by_frame(self) -> NDArray[np.int64]:
+        """(n,) a number for each photo, which those of one frame of a rig share."""
+        own = [self.frame_of.get(image, -image) for image in self.image_ids]
+        numbers: NDArray[np.int64] = np.unique(own, return_inverse=True)[1]
+        return numbers
 
     def observed(self, kept: NDArray[np.bool_]) -> Structure:
         """The same with some of the observations."""
@@ -196,34 +206,44 @@ def structure_of(model: pycolmap.Reconstruction, names: Mapping[int, str]) -> St
         image_of=columns[:, 0],
         keypoint_of=columns[:, 1],
         point_of=columns[:, 2],
+        frame_of=frames_in(model),
     )
 
 
 def model_of(structure: Structure) -> pycolmap.Reconstruction:
     """The engine's model of the columns; points that fewer than two photos see are left out."""
     model = pycolmap.Reconstruction()
+    poses = dict(zip(structure.image_ids, structure.cam_from_world, strict=True))
+    rigs = rigs_among(poses, structure.camera_of, structure.frame_of)
+    of_rigs = {camera for rig in rigs for camera in rig.cam_from_rig}
     for number, camera in structure.cameras.items():
         own = pycolmap.Camera(camera.todict())
         own.camera_id = number
-        model.add_camera_with_trivial_rig(own)
-    for row, image_id in enumerate(structure.image_ids):
-        image = pycolmap.Image(
+        add = model.add_camera if number in of_rigs else model.add_camera_with_trivial_rig
+        add(own)
+    images = {
+        image_id: pycolmap.Image(
             name=structure.names[row],
             keypoints=structure.keypoints_px[row],
             camera_id=structure.camera_of[image_id],
             image_id=image_id,
         )
-        pose = pycolmap.Rigid3d(structure.cam_from_world[row])
-        model.add_image_with_trivial_frame(image, pose)
+        for row, image_id in enumerate(structure.image_ids)
+    }
+    for count, rig in enumerate(rigs, 1):
+        add_rig(model, rig, max(structure.cameras) + count, images, poses)
+    held = {image for rig in rigs for members in rig.frames.values() for image in members}
+    for image_id in poses.keys() - held:
+        model.add_image_with_trivial_frame(images[image_id], pycolmap.Rigid3d(poses[image_id]))
     order = np.argsort(structure.point_of, kind="stable")
     ends = np.searchsorted(structure.point_of[order], np.arange(len(structure.points) + 1))
-    images, keypoints = structure.image_of[order].tolist(), structure.keypoint_of[order].tolist()
+    rows_of, keypoints = structure.image_of[order].tolist(), structure.keypoint_of[order].tolist()
     for number, point in enumerate(structure.points):
         rows = range(int(ends[number]), int(ends[number + 1]))
         if len(rows) < 2:
             continue
         elements = [
-            pycolmap.TrackElement(structure.image_ids[images[row]], keypoints[row]) for row in rows
+            pycolmap.TrackElement(structure.image_ids[rows_of[row]], keypoints[row]) for row in rows
         ]
         track = pycolmap.Track(elements)
         model.add_point3D_with_id(
@@ -253,6 +273,7 @@ def adjusted(
     options = pycolmap.BundleAdjustmentOptions()
     options.print_summary = False
     options.refine_principal_point = free_principal_point
+    options.refine_sensor_from_rig = bool(structure.frame_of) and not structure.rig_held
     if false_matches:
         options.ceres.loss_function_type = pycolmap.LossFunctionType.CAUCHY
         options.ceres.loss_function_scale = CAUCHY_PX
@@ -265,7 +286,9 @@ def adjusted(
         config.set_constant_rig_from_world_pose(model.images[image].frame_id)
     for number in held:
         config.set_constant_cam_intrinsics(number)
-    if not fixed:
+    if not fixed and structure.frame_of and structure.rig_held:  # which has the scale
+        config.set_constant_rig_from_world_pose(model.images[structure.image_ids[0]].frame_id)
+    elif not fixed:
         config.fix_gauge(pycolmap.BundleAdjustmentGauge.TWO_CAMS_FROM_WORLD)
     summary = pycolmap.create_default_bundle_adjuster(options, config, model).solve()
     if not summary.is_solution_usable():

@@ -85,7 +85,7 @@ def finish_component(
     held, weak = without_weak(placed)
     upright = oriented(held)
     left += _told(placed, held, _WEAK)
-    notes = (*_kept(doubtful, _KEPT_MISPLACED), *_kept(weak, _KEPT_WEAK))
+    notes = (*_kept(doubtful, _KEPT_MISPLACED), *_kept(weak, _KEPT_WEAK), *by_rig_alone(held))
     return Component(upright.structure, choice, upright.level_deg, left=left, notes=notes)
 
 
@@ -112,7 +112,7 @@ def _with_the_cameras_of(
     held, weak = without_weak(structure)
     upright = oriented(held)
     left = _told(structure, held, _WEAK)
-    notes = _kept(weak, _KEPT_WEAK)
+    notes = (*_kept(weak, _KEPT_WEAK), *by_rig_alone(held))
     choice = LensChoice(larger.lens.kind, ())
     return Component(upright.structure, choice, upright.level_deg, left=left, notes=notes)
 
@@ -129,10 +129,21 @@ def _kept(names: tuple[str, ...], state: str) -> tuple[str, ...]:
     return (f"{', '.join(names)}: {state}; kept, as fewer than two photos would be left",)
 
 
+def by_rig_alone(structure: Structure) -> tuple[str, ...]:
+    """A note on photos that show too little, whose places are those of their frame."""
+    counts = np.bincount(structure.image_of, minlength=len(structure.names))
+    names = [structure.names[row] for row in np.flatnonzero(counts < FEWEST_POINTS)]
+    if not structure.frame_of or not names:
+        return ()
+    return (f"{', '.join(names)}: too little to see; placed by the other cameras of the rig",)
+
+
 def without_weak(structure: Structure) -> tuple[Structure, tuple[str, ...]]:
-    """The same without photos that too few points hold.
+    """The same without photos that too few points hold; those of a rig hold each other.
 
     Where fewer than two would be left all stay: then the second names those that are weak.
     """
     counts = np.bincount(structure.image_of, minlength=len(structure.names))
+    frame = structure.by_frame()
+    counts = np.bincount(frame, weights=counts)[frame]
     return structure.without_doubtful(counts < FEWEST_POINTS)

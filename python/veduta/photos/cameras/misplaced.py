@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.photos.mapping.conflicts import GRID, LARGEST_ZOOM, WIDEST_DEG, cells_of
+from veduta.photos.mapping.conflicts import GRID, LARGEST_ZOOM, WIDEST_DEG, cells_of, within
 from veduta.photos.structure import Structure
 
 ENOUGH = 8
@@ -29,26 +29,41 @@ photos 0.77, true ones at most 0.25; fountain-P11, lund-door: at most 0.03."""
 def without_misplaced(structure: Structure) -> tuple[Structure, tuple[str, ...]]:
     """The same without photos that are misplaced.
 
-    Where fewer than two would be left all stay: then the second names those that are misplaced.
+    A photo of a rig is where the others of its frame say. Where fewer than two would be left all
+    stay: then the second names those that are misplaced.
     """
-    misplaced = np.array([share >= MISPLACED for share in empty_shares(structure)])
-    return structure.without_doubtful(misplaced)
+    frame, shares = structure.by_frame(), np.array(empty_shares(structure))
+    least = np.full(frame.max() + 1, np.inf)
+    np.minimum.at(least, frame, shares)
+    return structure.without_doubtful(least[frame] >= MISPLACED)
 
 
 def empty_shares(structure: Structure) -> NDArray[np.float64]:
     """(n,) the share of each photo's cells in which it lacks what it should show.
 
+    A point counts by how often photos that should show it do: of what lies far off at a grazing
+    angle, as in the upper part of an oblique photo from the air, few are found again in any photo.
     0 where too few cells are empty to say something.
     """
     centres = structure.centres()
+    rows = range(len(structure.names))
+    own = [np.unique(structure.point_of[structure.image_of == row]) for row in rows]
+    wanted = [within(structure, expected(structure, centres, row), row)[:2] for row in rows]
+    seen = np.zeros(len(structure.points))
+    asked = np.zeros(len(structure.points))
+    for row in rows:
+        seen[own[row]] += 1.0
+        asked[np.union1d(own[row], wanted[row][0])] += 1.0
     shares = np.zeros(len(structure.names))
-    for row in range(len(shares)):
-        own = np.unique(structure.point_of[structure.image_of == row])
-        wanted = cells_of(structure, expected(structure, centres, row), row)[0]
-        here = cells_of(structure, own, row)[0]
-        wanted, here = (np.bincount(cells, minlength=GRID * GRID) for cells in (wanted, here))
-        telling = wanted >= ENOUGH
-        empty = telling & (here < EMPTY * wanted)
+    for row in rows:
+        others = seen.copy()
+        others[own[row]] -= 1.0
+        found_again = others / np.maximum(asked - 1.0, 1.0)
+        points, cells = wanted[row]
+        should = np.bincount(cells, weights=found_again[points], minlength=GRID * GRID)
+        here = np.bincount(cells_of(structure, own[row], row)[0], minlength=GRID * GRID)
+        telling = should >= ENOUGH
+        empty = telling & (here < EMPTY * should)
         if empty.sum() >= FEWEST_CELLS:
             shares[row] = empty.sum() / telling.sum()
     return shares

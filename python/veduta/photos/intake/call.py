@@ -12,6 +12,14 @@ from veduta.formats.colmap_folder import ModelFiles, models_in
 from veduta.imaging.read import MAX_FILE_BYTES
 from veduta.photos.intake.given import NOTHING_ELSE, Given
 from veduta.photos.intake.masks import Mask, masks_in, read_mask, with_masks
+from veduta.photos.intake.rig import (
+    LARGEST_FILE,
+    RIG_FILE,
+    RigFile,
+    camera_folders,
+    mounted,
+    read_rig_file,
+)
 from veduta.photos.intake.source import Source
 from veduta.photos.intake.unread import photo_suffixes, unread_files, why_unread
 from veduta.photos.intake.video import Video, video_of
@@ -30,7 +38,8 @@ class Call:
     copies: files with the content of an earlier one, as (name, name of the earlier one).
     unreadable: files that the system does not let us read, as (name, reason).
     unread: pictures of formats that are not read, as (name, reason).
-    models: the components of a COLMAP model to start from. notes: what else is to be told.
+    models: the components of a COLMAP model to start from. rig: what a file says of the rig that
+    took the photos. notes: what else is to be told.
     """
 
     folder: Path
@@ -41,6 +50,7 @@ class Call:
     unread: tuple[tuple[str, str], ...] = ()
     video: Video | None = None
     models: tuple[ModelFiles, ...] = ()
+    rig: RigFile | None = None
     notes: tuple[str, ...] = ()
 
     def inputs(self) -> JsonValue:
@@ -51,12 +61,18 @@ class Call:
         masks: list[JsonValue] = [[mask.path.name, mask.sha256] for mask in self.masks]
         video: JsonValue = None if self.video is None else [self.video.name, self.video.sha256]
         models: list[JsonValue] = [list(model.sha256) for model in self.models]
-        return [photos, aside, masks, video, models]
+        rig: list[JsonValue] = [] if self.rig is None else [self.rig.sha256]
+        return [photos, aside, masks, video, models, *rig]
 
 
-def plan_call(folder: Path | None, given: Given = NOTHING_ELSE) -> Call:
-    """The photos in a folder, not in folders below it; InputError where there are not two."""
+def plan_call(folder: Path | None, given: Given = NOTHING_ELSE, *, rig: bool = False) -> Call:
+    """The photos in a folder, not in folders below it; InputError where there are not two.
+
+    rig: they are in folders below it, one for each camera of a rig.
+    """
     _require_sense(folder, given)
+    if rig:
+        return _of_a_rig(folder, given)
     video = video_of(given.video) if given.video else None
     models = models_in(given.from_colmap) if given.from_colmap else ()
     masks = masks_in(given.masks) if given.masks else ()
@@ -83,6 +99,47 @@ def plan_call(folder: Path | None, given: Given = NOTHING_ELSE) -> Call:
     )
 
 
+def _of_a_rig(folder: Path | None, given: Given) -> Call:
+    """The photos in the folders of a rig's cameras, called FOLDER/NAME."""
+    for name, file in (
+        ("--video", given.video),
+        ("--from-colmap", given.from_colmap),
+        ("--masks", given.masks),
+    ):
+        if file is not None:
+            remedy = "Leave one of the two out."
+            raise InputError(name, "has no use with --rig, which takes photos alone", remedy)
+    if folder is None:
+        raise InputError("DIR", "is not given", "Name the folder that has one for each camera.")
+    sources: list[Source] = []
+    copies: list[tuple[str, str]] = []
+    unreadable: list[tuple[str, str]] = []
+    unread: list[tuple[str, str]] = []
+    known: dict[str, str] = {}
+    inner = _camera_folders(folder)
+    for one in inner:
+        found = _found(one, f"{one.name}/", known)
+        sources += found[0]
+        copies += found[1]
+        unreadable += found[2]
+        unread += [(f"{one.name}/{name}", why) for name, why in unread_files(one, given)[0]]
+    taken, notes = mounted(folder, sources)
+    path = folder / RIG_FILE
+    told = None
+    if path.exists():
+        told = read_rig_file(path, input_digest(path, LARGEST_FILE), [one.name for one in inner])
+    loose = [one.name for one in _paths(folder)]
+    if loose:
+        notes = (*notes, f"{len(loose)} photos beside the cameras' folders are not used")
+    aside = (tuple(copies), tuple(unreadable))
+    return Call(folder, taken, *aside, unread=tuple(unread), rig=told, notes=notes)
+
+
+def _camera_folders(folder: Path) -> list[Path]:
+    _paths(folder)
+    return camera_folders(folder, frozenset(photo_suffixes()))
+
+
 def _require_sense(folder: Path | None, given: Given) -> None:
     if folder is None and given.video is None:
         raise InputError("DIR", "is not given", "Name a folder of photos, or a film with --video.")
@@ -107,24 +164,30 @@ def _require_sizes(masks: Sequence[Mask], video: Video) -> None:
 _Pairs = tuple[tuple[str, str], ...]
 
 
-def _found(folder: Path) -> tuple[tuple[Source, ...], _Pairs, _Pairs, int]:
-    """Sources, copies, unreadable files, and how many files there are in all."""
+def _found(
+    folder: Path, prefix: str = "", known: dict[str, str] | None = None
+) -> tuple[tuple[Source, ...], _Pairs, _Pairs, int]:
+    """Sources, copies, unreadable files, and how many files there are in all.
+
+    prefix: of their names. known: names of files that were found elsewhere, by their digests.
+    """
     sources: list[Source] = []
-    known: dict[str, str] = {}
+    known = {} if known is None else known
     copies: list[tuple[str, str]] = []
     unreadable: list[tuple[str, str]] = []
     paths = _paths(folder)
     for path in paths:
+        name = prefix + path.name
         try:
             digest = input_digest(path, MAX_FILE_BYTES)
         except InputError as error:
-            unreadable.append((path.name, error.fault))
+            unreadable.append((name, error.fault))
             continue
-        first = known.setdefault(digest, path.name)
-        if first != path.name:
-            copies.append((path.name, first))
+        first = known.setdefault(digest, name)
+        if first != name:
+            copies.append((name, first))
         else:
-            sources.append(Source(path.name, path, digest))
+            sources.append(Source(name, path, digest))
     return tuple(sources), tuple(copies), tuple(unreadable), len(paths)
 
 
@@ -159,7 +222,11 @@ def _what_to_do(folder: Path, files: int) -> str:
         return _ADD
     if inner:
         others = f" ({len(inner)} folders in it hold photos)" if len(inner) > 1 else ""
-        return f"Name {inner[0]}, which holds some{others}: folders in folders are not looked into."
+        rig = ", or say --rig if each is of one camera of a rig" if len(inner) > 1 else ""
+        return (
+            f"Name {inner[0]}, which holds some{others}: folders in folders are not looked into"
+            f"{rig}."
+        )
     foreign = [path.name for path in there if why_unread(path)]
     if foreign:
         return f"Save {foreign[0]} and the others as JPEG, PNG, TIFF or WebP."

@@ -17,7 +17,7 @@ from veduta.imaging.read import Photo, image_size, read_image
 from veduta.imaging.shot import Position
 from veduta.photos.intake.duplicates import Pictures
 from veduta.photos.intake.masks import read_mask
-from veduta.photos.intake.source import Source
+from veduta.photos.intake.source import Mount, Source
 from veduta.run.errors import InputError
 from veduta.run.progress import StepProgress, no_progress
 
@@ -33,7 +33,8 @@ class PhotoRecord:
     image_id: 1 and on, in the order of the names, frames of a film after photos. focal_px: from
     EXIF; None where it says nothing that can be true. group: number of the camera that may have
     taken it, by size, make and focal length, or film. orientation: as EXIF says that it is stored.
-    pitch_deg: how far it looked up, by the gimbal that held it.
+    pitch_deg: how far it looked up, by the gimbal that held it. mount: where its camera is one of
+    a rig.
     """
 
     image_id: int
@@ -54,11 +55,13 @@ class PhotoRecord:
     mask_sha256: str | None = None
     video: str | None = None
     pitch_deg: float | None = None
+    mount: Mount | None = None
 
     @property
     def one_camera(self) -> bool:
         """Whether all photos of its group are known to be of one camera."""
-        return self.focal_px is not None or self.video is not None
+        known = self.focal_px is not None or self.video is not None
+        return known or self.mount is not None
 
 
 @dataclass(frozen=True)
@@ -77,6 +80,7 @@ def read_photos(sources: Sequence[Source], progress: StepProgress = no_progress)
     set_aside: list[tuple[str, str]] = []
     found: list[tuple[int, PhotoRecord]] = []
     pictures = Pictures(len(sources))
+    sizes: dict[str, tuple[int, int]] = {}
     for number, source in enumerate(sources):
         progress("read", number / len(sources))
         try:
@@ -84,7 +88,7 @@ def read_photos(sources: Sequence[Source], progress: StepProgress = no_progress)
         except InputError as error:
             set_aside.append((source.name, error.fault))
             continue
-        reason = _unusable(source, photo)
+        reason = _unusable(source, photo) or _of_another_size(source, photo, sizes)
         if reason:
             set_aside.append((source.name, reason))
             continue
@@ -122,6 +126,17 @@ def _unusable(source: Source, photo: Photo) -> str | None:
     return None
 
 
+def _of_another_size(source: Source, photo: Photo, sizes: dict[str, tuple[int, int]]) -> str | None:
+    """Why a photo cannot be of its rig's camera; `sizes` of the cameras is added to."""
+    if source.mount is None:
+        return None
+    height, width = photo.pixels.shape[:2]
+    own = sizes.setdefault(source.mount.camera, (width, height))
+    if own == (width, height):
+        return None
+    return f"has {width} x {height} px, and the first photo of its camera {own[0]} x {own[1]}"
+
+
 def _record(source: Source, photo: Photo) -> PhotoRecord:
     """What is kept of a photo; numbers are given when all are read."""
     height, width = photo.pixels.shape[:2]
@@ -144,6 +159,7 @@ def _record(source: Source, photo: Photo) -> PhotoRecord:
         mask_sha256=source.mask_sha256,
         video=source.video,
         pitch_deg=photo.shot.pitch_deg,
+        mount=source.mount,
     )
 
 
@@ -153,7 +169,8 @@ def _numbered(records: Sequence[PhotoRecord]) -> tuple[PhotoRecord, ...]:
     numbered = []
     for number, photo in enumerate(records, 1):
         focal = None if photo.focal_px is None else round(photo.focal_px, 3)
-        kind = (photo.width_px, photo.height_px, photo.camera, focal, photo.video)
+        kind: tuple[object, ...] = (photo.width_px, photo.height_px, photo.camera, focal)
+        kind = (*kind, photo.video) if photo.mount is None else ("of a rig", photo.mount.camera)
         group = groups.setdefault(kind, len(groups) + 1)
         numbered.append(replace(photo, image_id=number, group=group))
     return tuple(numbered)

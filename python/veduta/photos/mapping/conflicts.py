@@ -158,13 +158,21 @@ def cells_of(
     structure: Structure, points: NDArray[np.int64], row: int
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Cell (k,) and depth (k,) of those of the points that come to lie within a photo."""
+    _, cells, depths = within(structure, points, row)
+    return cells, depths
+
+
+def within(
+    structure: Structure, points: NDArray[np.int64], row: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+    """Those of the points (k,) that come to lie within a photo, with the cell and depth of each."""
     camera, pose = structure.camera(row), structure.cam_from_world[row]
     local = structure.points[points] @ pose[:, :3].T + pose[:, 3]
-    local = local[local[:, 2] > 0]
+    points, local = points[local[:, 2] > 0], local[local[:, 2] > 0]
     places = camera.img_from_cam(local)
     inside = ((places >= 0) & (places < (camera.width, camera.height))).all(axis=1)
     inside[inside] = undistorts(camera, local[inside], places[inside])
-    return cell_numbers(camera, places[inside]), local[inside, 2]
+    return points[inside], cell_numbers(camera, places[inside]), local[inside, 2]
 
 
 def cell_numbers(camera: pycolmap.Camera, places: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -10,10 +10,13 @@ from __future__ import annotations
 
 import shutil
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import combinations
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pycolmap
@@ -46,13 +49,16 @@ rarer than one a photo."""
 SHORT_S = 0.25
 """Writing that takes no longer is done after each photo."""
 
+RigKind = Literal["none", "adjusted", "held"]
+
 
 @dataclass(frozen=True)
 class Growth:
     """What `grow` needs. smallest: photos that a component must have.
 
     image_ids: the photos that wait for one, which are those of the cache. snapshots: a folder of
-    its own, which may hold what an earlier run left.
+    its own, which may hold what an earlier run left. rig: whether the database has one, and whether
+    how its cameras are fixed is adjusted with the rest.
     """
 
     database: Path
@@ -61,6 +67,7 @@ class Growth:
     snapshots: Path
     smallest: int
     seed: int
+    rig: RigKind = "none"
 
 
 @dataclass
@@ -177,9 +184,22 @@ class _Trial:
     def _after_pair(self) -> None:
         """The engine calls it for a model that it goes on with, too."""
         if self.start_of is not None:
-            first, second = sorted(self.grown.model.reg_image_ids())
+            first, second = self._begun_with()
             self.grown = Grown(self.grown.model, self.start_of((first, second)))
         self._after_photo()
+
+    def _begun_with(self) -> tuple[int, int]:
+        """The pair; of a rig, whose frames are placed whole, the two photos that share most."""
+        first, *others = sorted(self.grown.model.reg_image_ids())
+        if len(others) == 1:
+            return first, others[0]
+        shared: Counter[tuple[int, int]] = Counter()
+        for point in self.grown.model.points3D.values():
+            images = sorted({element.image_id for element in point.track.elements})
+            shared.update(combinations(images, 2))
+        frame_of = {image: self.grown.model.images[image].frame_id for image in (first, *others)}
+        between = [pair for pair in shared if frame_of[pair[0]] != frame_of[pair[1]]]
+        return max(between, key=lambda pair: (shared[pair], pair), default=(first, others[0]))
 
     def _after_photo(self) -> None:
         self.registered(self.grown.model.num_reg_images())
@@ -201,7 +221,7 @@ def _options(growth: Growth) -> pycolmap.IncrementalPipelineOptions:
         sides = [max(camera.width, camera.height) for camera in opened.read_all_cameras()]
     options.mapper.abs_pose_max_error = float(np.clip(PLACING * np.median(sides), *PLACING_PX))
     # The engine warns of a trivial rig in each photo otherwise.
-    options.ba_refine_sensor_from_rig = False
+    options.ba_refine_sensor_from_rig = growth.rig == "adjusted"
     return options
 
 

@@ -11,7 +11,7 @@ and false. So what counts are the matches that a homography does not explain.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -88,13 +88,18 @@ class Start:
 
 
 def weighed_pairs(database: Path, image_ids: Sequence[int], seed: int) -> list[WeighedPair]:
-    """The verified pairs of some photos, best first.
+    """The verified pairs of some photos, best first; none of photos of one frame of a rig.
 
     Known focal lengths first where there are enough matches off a plane, then by their number.
     """
     with pycolmap.Database.open(database) as opened:
         cameras = {image: _camera_of(opened, image) for image in image_ids}
-        counted = _counted(opened, set(image_ids))
+        frame_of = {image: frame for frame, image in _frames(opened)}
+        counted = [
+            (first, second, count)
+            for first, second, count in _counted(opened, set(image_ids))
+            if frame_of.get(first, first) != frame_of.get(second, second)
+        ]
         counted.sort(key=lambda one: _place(one[2], _are_known(one[:2], cameras), one[:2]))
         weighed = [
             _read_and_weigh(opened, (first, second), cameras, seed)
@@ -145,6 +150,13 @@ def weigh(
 
 def _camera_of(opened: pycolmap.Database, image: int) -> pycolmap.Camera:
     return opened.read_camera(opened.read_image(image).camera_id)
+
+
+def _frames(opened: pycolmap.Database) -> Iterator[tuple[int, int]]:
+    """The frame and the image id of each photo: those of one frame of a rig begin no map."""
+    for frame in opened.read_all_frames():
+        for data in frame.data_ids:
+            yield int(frame.frame_id), int(data.id)
 
 
 def _counted(opened: pycolmap.Database, images: set[int]) -> list[tuple[int, int, int]]:

@@ -15,7 +15,7 @@ import pycolmap
 
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.mapping.engine import quiet_engine
-from veduta.photos.mapping.growing import Growth, grow
+from veduta.photos.mapping.growing import Growth, RigKind, grow
 from veduta.photos.mapping.grown import Grown, read_grown, write_files, write_grown
 from veduta.photos.mapping.initial_pair import Start
 from veduta.photos.matching.match import PairRecord, database_name
@@ -52,6 +52,7 @@ def map_photos(
     image_ids: Sequence[int],
     seed: int,
     progress: StepProgress = no_progress,
+    rig: RigKind = "none",
 ) -> Mapped:
     """Poses and points of as many of the photos as hang together; none where none do.
 
@@ -62,7 +63,9 @@ def map_photos(
     quiet_engine()
     work.mkdir(exist_ok=True)
     ended = list(_read_numbered(work))
-    while (found := _next_component(database, work, ended, image_ids, seed, progress)) is not None:
+    while (
+        found := _next_component(database, work, ended, image_ids, seed, progress, rig)
+    ) is not None:
         write_grown(found, work / str(len(ended)))
         ended.append(found)
         for snapshots in work.glob(f"{_GROWING}*"):
@@ -86,6 +89,7 @@ def _next_component(
     image_ids: Sequence[int],
     seed: int,
     progress: StepProgress,
+    rig: RigKind,
 ) -> Grown | None:
     """One more of the photos that no ended component has; None where there is none."""
     placed = {image for one in ended for image in one.model.reg_image_ids()}
@@ -99,7 +103,7 @@ def _next_component(
         return None
     snapshots = work / f"{_GROWING}{len(ended)}"
     cache = _cache(database, waiting)
-    return grow(Growth(database, waiting, cache, snapshots, smallest, seed), registered)
+    return grow(Growth(database, waiting, cache, snapshots, smallest, seed, rig), registered)
 
 
 def _cache(database: Path, image_ids: Sequence[int]) -> pycolmap.DatabaseCache:

@@ -22,6 +22,7 @@ from veduta.photos.mapping.doubt import (
     read_matched,
     write_doubts,
 )
+from veduta.photos.mapping.growing import RigKind
 from veduta.photos.mapping.mapping import (
     FEWEST_MATCHES,
     Mapped,
@@ -57,17 +58,20 @@ def map_settled(
     seed: int,
     progress: StepProgress = no_progress,
     kind: MapKind = "incremental",
+    rig: RigKind = "none",
 ) -> Settled:
     """Map the photos of a database until their pairs agree.
 
-    work: a folder for what is finished; a call that was killed goes on from there.
+    work: a folder for what is finished; a call that was killed goes on from there. rig: as in
+    `Growth`.
     """
     work.mkdir(exist_ok=True)
     dropped: tuple[Doubt, ...] = ()
-    map_all = map_at_once if kind == "global" else map_photos
 
     def mapped_from(source: Path, growing: Path) -> Mapped:
-        return map_all(source, growing, image_ids, seed, progress)
+        if kind == "global":
+            return map_at_once(source, growing, image_ids, seed, progress)
+        return map_photos(source, growing, image_ids, seed, progress, rig)
 
     for number in range(ROUNDS):
         mapped = _mapped(database, work, number, dropped, mapped_from)

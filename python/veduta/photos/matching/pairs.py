@@ -82,7 +82,9 @@ def retrieved_pairs(
 def _sequence(photos: Sequence[PhotoRecord], reach: int) -> Pairs:
     """Each photo with the next ones, and with some far ahead, so that loops can close."""
     timed = all(photo.time is not None for photo in photos)
-    order = sorted(photos, key=lambda photo: (photo.time or datetime.min, photo.name))
+    order = sorted(photos, key=lambda photo: (photo.time or datetime.min, _name(photo)))
+    mounts = {photo.mount.camera for photo in photos if photo.mount is not None}
+    reach *= max(1, len(mounts))  # neighbours are frames
     ids = [photo.image_id for photo in order]
     steps = sorted({*range(1, reach + 1), *_doublings(reach, len(ids))})
     pairs = {_pair(a, b) for step in steps for a, b in zip(ids, ids[step:], strict=False)}
@@ -90,6 +92,11 @@ def _sequence(photos: Sequence[PhotoRecord], reach: int) -> Pairs:
     return Pairs(
         tuple(sorted(pairs)), "sequence", f"{reach} neighbours on each side in the order of {by}"
     )
+
+
+def _name(photo: PhotoRecord) -> tuple[str, str]:
+    """What orders photos without times; the cameras of a rig by their frames."""
+    return (photo.name, "") if photo.mount is None else (photo.mount.frame, photo.mount.camera)
 
 
 def _doublings(reach: int, count: int) -> list[int]:

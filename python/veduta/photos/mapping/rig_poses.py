@@ -1,0 +1,126 @@
+"""How the cameras of a rig are fixed to each other, as a map tells that knows of no rig.
+
+Each frame of which two cameras are placed in one component says it once. The middle one of what
+they say is taken (the one that the others are nearest to), and the mean of those that agree with
+it: photos that were placed falsely then do not count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.rigged import after, between
+from veduta.photos.structure import Structure
+
+FEWEST_FRAMES = 3
+"""Frames that must agree: of two nobody knows which is wrong."""
+MOST_TURN_DEG = 2.0
+"""Up to which two frames agree in how the cameras are turned against each other."""
+MOST_SHIFT = 0.02
+"""And in where they are, as a share of the distance to what they see."""
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RigPoses:
+    """cam_from_rig: (3, 4) by the name of the camera. held: given, and not to be adjusted.
+
+    frames: by the name of the camera, of how many frames its pose was found; 0 where given.
+    unknown: cameras whose pose nothing tells.
+    """
+
+    cam_from_rig: Mapping[str, Floats]
+    held: bool
+    frames: Mapping[str, int]
+    unknown: tuple[str, ...] = ()
+
+
+def found_poses(structure: Structure, photos: Sequence[PhotoRecord]) -> RigPoses:
+    """Of the cameras that frames of a component tie to each other; its unit of length is theirs."""
+    placed = _placed(structure, photos)
+    first = max(placed, key=lambda camera: (len(placed[camera]), camera))
+    known: dict[str, Floats] = {first: np.eye(3, 4)}
+    frames = {first: len(placed[first])}
+    reach = MOST_SHIFT * _depth(structure)
+    while (tie := _strongest_tie(structure, placed, known, reach)) is not None:
+        camera, pose, count = tie
+        known[camera], frames[camera] = pose, count
+    unknown = tuple(sorted(placed.keys() - known.keys()))
+    return RigPoses(known, held=False, frames=frames, unknown=unknown)
+
+
+def _placed(structure: Structure, photos: Sequence[PhotoRecord]) -> dict[str, dict[str, int]]:
+    """Of each camera the row of each frame in which it is placed."""
+    row_of = {image: row for row, image in enumerate(structure.image_ids)}
+    placed: dict[str, dict[str, int]] = {}
+    for photo in photos:
+        if photo.mount is not None:
+            own = placed.setdefault(photo.mount.camera, {})
+            if photo.image_id in row_of:
+                own[photo.mount.frame] = row_of[photo.image_id]
+    return placed
+
+
+def _strongest_tie(
+    structure: Structure,
+    placed: Mapping[str, Mapping[str, int]],
+    known: Mapping[str, Floats],
+    reach: float,
+) -> tuple[str, Floats, int] | None:
+    """One more camera, its pose, and how many frames agree in it; None where no more is tied."""
+    poses = structure.cam_from_world
+    shared = {
+        (camera, other): sorted(placed[camera].keys() & placed[other].keys())
+        for camera in known
+        for other in placed.keys() - known.keys()
+    }
+    for camera, other in sorted(shared, key=lambda pair: (-len(shared[pair]), pair)):
+        frames = shared[camera, other]
+        if len(frames) < FEWEST_FRAMES:
+            break
+        each = [
+            between(poses[placed[camera][frame]], poses[placed[other][frame]]) for frame in frames
+        ]
+        found = agreed(np.array(each), reach)
+        if found is not None:
+            return other, after(found[0], known[camera]), found[1]
+    return None
+
+
+def agreed(each: Floats, reach: float) -> tuple[Floats, int] | None:
+    """The pose that most of (n, 3, 4) agree in, and how many do; None where too few do.
+
+    reach: up to which two places agree.
+    """
+    turns = _angles_deg(each[:, :, :3])
+    centres = -np.einsum("nji,nj->ni", each[:, :, :3], each[:, :, 3])
+    shifts = np.linalg.norm(centres[:, None] - centres[None], axis=-1)
+    near = (turns <= MOST_TURN_DEG) & (shifts <= reach)
+    votes = near.sum(axis=1)
+    apart = np.where(near, turns / MOST_TURN_DEG + shifts / max(reach, 1e-12), 0.0).sum(axis=1)
+    middle = int(np.lexsort((apart / votes, -votes))[0])
+    kept = near[middle]
+    if votes[middle] < max(FEWEST_FRAMES, 0.5 * len(each)):
+        return None
+    left, _, right = np.linalg.svd(each[kept, :, :3].sum(axis=0))
+    rotation = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+    centre = centres[kept].mean(axis=0)
+    return np.column_stack([rotation, -rotation @ centre]), int(votes[middle])
+
+
+def _angles_deg(rotations: Floats) -> Floats:
+    """(n, n) angles between (n, 3, 3) rotations."""
+    traces = np.einsum("aij,bij->ab", rotations, rotations)
+    return np.asarray(np.rad2deg(np.arccos(np.clip((traces - 1.0) / 2.0, -1.0, 1.0))))
+
+
+def _depth(structure: Structure) -> float:
+    """Median distance of what is seen from where it is seen."""
+    rays = structure.points[structure.point_of] - structure.centres()[structure.image_of]
+    return float(np.median(np.linalg.norm(rays, axis=1)))

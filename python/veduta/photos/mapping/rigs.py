@@ -1,0 +1,83 @@
+"""Photos of a rig are mapped again, with the rig, once the first map has told how it is built.
+
+With a rig a photo is placed by all that its frame sees: one that shows a blank wall has its place
+from the others. What a file says of the rig is taken as it is, and the first map is not asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.mapping.growing import RigKind
+from veduta.photos.mapping.rig_database import write_rig_database
+from veduta.photos.mapping.rig_poses import RigPoses, found_poses
+from veduta.photos.mapping.settling import Settled, map_settled
+from veduta.photos.options import PhotosOptions
+from veduta.photos.stages import Stages
+from veduta.photos.structure import structure_of
+from veduta.run.outputs import writing_to
+from veduta.run.progress import StepProgress
+
+
+@dataclass(frozen=True)
+class RigTold:
+    """What is known of the rig. poses: None where the photos tell nothing of it.
+
+    alone, together: photos placed without the rig, and with it.
+    """
+
+    poses: RigPoses | None
+    alone: int
+    together: int
+
+    @property
+    def held(self) -> bool:
+        """Whether the poses were given."""
+        return self.poses is not None and self.poses.held
+
+
+def given_poses(stages: Stages) -> RigPoses | None:
+    """What the file of the call says."""
+    if stages.call.rig is None:
+        return None
+    poses = stages.call.rig.cam_from_rig
+    return RigPoses(poses, held=True, frames=dict.fromkeys(poses, 0))
+
+
+def mapped_with_rig(
+    alone: Settled,
+    photos: Sequence[PhotoRecord],
+    options: PhotosOptions,
+    stages: Stages,
+    progress: StepProgress,
+) -> tuple[Settled, RigTold | None]:
+    """The components with the rig in them, and what is known of it; as they are without one.
+
+    alone: mapped without the rig.
+    """
+    if not options.camera.rig:
+        return alone, None
+    before = _placed(alone)
+    poses = given_poses(stages)
+    if poses is None and alone.mapped.models:
+        names = {photo.image_id: photo.name for photo in photos}
+        poses = found_poses(structure_of(alone.mapped.models[0], names), photos)
+    if poses is None or len(poses.cam_from_rig) < 2:
+        return alone, RigTold(None, before, before)
+    kind: RigKind = "held" if poses.held else "adjusted"
+    database = stages.rig_database()
+    with writing_to(stages.out):
+        if not database.exists():
+            write_rig_database(stages.database(), photos, poses, database)
+        ids = [photo.image_id for photo in photos]
+        work = database.with_suffix(".mapping")
+        seed = options.random.seed
+        # Also with the pairs that were doubted: a map that knows the rig is the better witness.
+        together = map_settled(database, work, ids, seed, progress, "incremental", kind)
+    return together, RigTold(poses, before, _placed(together))
+
+
+def _placed(settled: Settled) -> int:
+    return sum(model.num_reg_images() for model in settled.mapped.models)

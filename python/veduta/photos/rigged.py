@@ -1,0 +1,124 @@
+"""Photos of rigs in the engine's model: those of one frame share a pose, whatever is adjusted.
+
+How the cameras are fixed to each other is read off the poses themselves: all frames of a structure
+that came from the engine say the same. So no step that turns, scales or thins a structure has to
+know of rigs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pycolmap
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RigFound:
+    """Cameras that frames tie together: (3, 4) cam_from_rig by camera id; the first is the rig's.
+
+    frames: image ids of each frame by its number, those of one camera alone included.
+    """
+
+    cam_from_rig: Mapping[int, Floats]
+    frames: Mapping[int, tuple[int, ...]]
+
+
+def rigs_among(
+    poses: Mapping[int, Floats], camera_of: Mapping[int, int], frame_of: Mapping[int, int]
+) -> list[RigFound]:
+    """The rigs of photos, by the least camera id. poses: (3, 4) cam_from_world by image id.
+
+    Cameras that no frame ties to another are of no rig, and their photos free.
+    """
+    frames: dict[int, dict[int, int]] = {}
+    for image in sorted(frame_of.keys() & poses.keys()):
+        frames.setdefault(frame_of[image], {})[camera_of[image]] = image
+    waiting = sorted({camera for images in frames.values() for camera in images})
+    found = []
+    while waiting:
+        known = {waiting[0]: np.eye(3, 4)}
+        grown = True
+        while grown:
+            grown = False
+            for images in frames.values():
+                for camera in [*images]:
+                    bases = [other for other in images if other in known]
+                    if camera in known or not bases:
+                        continue
+                    tie = between(poses[images[bases[0]]], poses[images[camera]])
+                    known[camera] = after(tie, known[bases[0]])
+                    grown = True
+        waiting = [camera for camera in waiting if camera not in known]
+        own = {
+            number: tuple(sorted(image for camera, image in images.items() if camera in known))
+            for number, images in frames.items()
+            if images.keys() & known.keys()
+        }
+        if len(known) > 1:
+            found.append(RigFound({camera: known[camera] for camera in sorted(known)}, own))
+    return found
+
+
+def rig_of(number: int, cam_from_rig: Mapping[int, Floats]) -> pycolmap.Rig:
+    """The engine's rig of cameras by their ids; the least of them is its reference."""
+    rig = pycolmap.Rig(rig_id=number)
+    order = sorted(cam_from_rig)
+    for camera in order:
+        sensor = pycolmap.sensor_t(type=pycolmap.SensorType.CAMERA, id=camera)
+        if camera == order[0]:
+            rig.add_ref_sensor(sensor)
+            continue
+        pose = between(cam_from_rig[order[0]], cam_from_rig[camera])
+        rig.add_sensor(sensor, pycolmap.Rigid3d(pose))
+    return rig
+
+
+def add_rig(
+    model: pycolmap.Reconstruction,
+    rig: RigFound,
+    number: int,
+    images: Mapping[int, pycolmap.Image],
+    poses: Mapping[int, Floats],
+) -> None:
+    """A rig and its photos into a model that has its cameras. number: of the rig."""
+    model.add_rig(rig_of(number, rig.cam_from_rig))
+    for frame_id, members in sorted(rig.frames.items()):
+        frame = pycolmap.Frame(frame_id=frame_id, rig_id=number)
+        for image_id in members:
+            frame.add_data_id(images[image_id].data_id)
+        first = members[0]
+        camera_from_rig = rig.cam_from_rig[images[first].camera_id]
+        inverse = between(camera_from_rig, np.eye(3, 4))
+        frame.rig_from_world = pycolmap.Rigid3d(after(inverse, poses[first]))
+        model.add_frame(frame)
+        for image_id in members:
+            images[image_id].frame_id = frame_id
+            model.add_image(images[image_id])
+        model.register_frame(frame_id)
+
+
+def frames_in(model: pycolmap.Reconstruction) -> dict[int, int]:
+    """The frame of each photo of a model whose camera is one of several of a rig."""
+    several = {number for number, rig in model.rigs.items() if rig.num_sensors() > 1}
+    return {
+        int(data.id): int(number)
+        for number, frame in model.frames.items()
+        if frame.rig_id in several
+        for data in frame.data_ids
+    }
+
+
+def between(first: Floats, second: Floats) -> Floats:
+    """(3, 4) second_from_first of two `from_world`."""
+    rotation = second[:, :3] @ first[:, :3].T
+    return np.column_stack([rotation, second[:, 3] - rotation @ first[:, 3]])
+
+
+def after(outer: Floats, inner: Floats) -> Floats:
+    """(3, 4) outer of inner."""
+    return np.column_stack([outer[:, :3] @ inner[:, :3], outer[:, :3] @ inner[:, 3] + outer[:, 3]])
