@@ -48,6 +48,14 @@ def test_a_wall_that_stays_thicker_stays() -> None:
     assert found is mask
 
 
+def test_a_stub_of_wall_beside_a_door_stays() -> None:
+    mask = party_wall()
+    mask[190:202, 70:95] = True
+    found, count = without_breasts(mask, find_tracks(mask), THICK)
+    assert count == 0
+    assert found[195, 90]
+
+
 def test_a_wall_that_joins_stays() -> None:
     mask = party_wall()
     mask[190:202, 70:280] = True

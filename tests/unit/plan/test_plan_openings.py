@@ -17,6 +17,7 @@ from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.leaf_pieces import leaf_pieces
+from veduta.plan.openings.leaves import find_arcs
 from veduta.plan.openings.sky import leads_out, open_sky
 from veduta.plan.openings.strip import Sheet, cut_strip
 from veduta.plan.reading import read_storey
@@ -294,3 +295,16 @@ def test_between_a_house_and_a_scale_bar_it_is_outdoors() -> None:
     assert leads_out(walls[0], (250.0, 350.0), sky)
     inner = Piece(np.array([400.0, 100.0]), np.array([400.0, 500.0]), 10.0)
     assert not leads_out(inner, (150.0, 250.0), sky)
+
+
+@pytest.mark.parametrize("radius_px", range(118, 136, 3))
+def test_the_thin_pen_of_a_large_sheet_is_seen_at_any_radius(radius_px: int) -> None:
+    faint = np.zeros((260, 320), np.uint8)
+    cv2.ellipse(faint, (80, 200), (radius_px, radius_px), 0.0, -90.0, 0.0, 1, 2)
+    cv2.line(faint, (80, 200), (80, 200 - radius_px), 1, 1)
+    drawn = faint.astype(np.bool_)
+    ends = np.array([80.0, 209.5]), np.array([80.0 + 128.0, 209.5])
+    gap = Gap(0, True, 1, False, *ends, 19.0, ends[1])
+    best = find_arcs(gap, Sheet(drawn.astype(np.float32), drawn))[0]
+    assert best.score > 0.8
+    assert best.hinge_at_start

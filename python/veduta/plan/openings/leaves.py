@@ -15,7 +15,10 @@ from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.strip import Sheet, sample
 
 ARC_STEPS = 28
-RADII = np.linspace(0.8, 1.08, 9)
+LEAST_RADIUS, MOST_RADIUS = 0.8, 1.08
+"""Of a leaf, in widths of its gap ..."""
+FEWEST_RADII, RADIUS_STEP_PX = 9, 1.5
+"""... in so many steps, or such: the thin pen of a large sheet lies between broader ones."""
 SLACK = (-0.5, -0.25, 0.0, 0.25, 0.5)
 """Where across the wall the leaf may hang, in thicknesses."""
 
@@ -117,7 +120,7 @@ def leaf_thickness(arc: Arc, sheet: Sheet) -> float:
 
 def _arc(gap: Gap, sheet: Sheet, frame: _Frame, share: float) -> Arc:
     angles = np.radians(np.linspace(4, 86, ARC_STEPS))
-    radii = RADII * gap.width_px * share
+    radii = radii_px(gap.width_px * share)
     hinges = frame.hinge + np.array(SLACK)[:, None] * gap.thickness_px * frame.opened
     turn = np.cos(angles)[:, None] * frame.closed + np.sin(angles)[:, None] * frame.opened
     points = hinges[:, None, None] + radii[None, :, None, None] * turn[None, None]
@@ -138,7 +141,7 @@ def _arc(gap: Gap, sheet: Sheet, frame: _Frame, share: float) -> Arc:
 
 def _chord(gap: Gap, sheet: Sheet, frame: _Frame) -> Arc:
     """Both the leaf and the line from its tip must be drawn."""
-    sizes = RADII * gap.width_px
+    sizes = radii_px(gap.width_px)
     hinges = frame.hinge + np.array(SLACK)[:, None] * gap.thickness_px * frame.opened
     leaf, chord = frame.opened, frame.closed - frame.opened
     share = np.linspace(0.08, 0.92, CHORD_STEPS)[:, None]
@@ -181,6 +184,13 @@ def _zigzag(gap: Gap, sheet: Sheet, frame: _Frame, leaves: int) -> float:
     # All leaves of a zigzag are drawn: one alone is a line of something else.
     score = on.mean(axis=-1).min(axis=-1) - CROWDED * beside.mean(axis=(-1, -2))
     return float(max(0.0, score.max()))
+
+
+def radii_px(width_px: float) -> NDArray[np.float64]:
+    """How long leaves may be that close a gap of that width."""
+    steps = int(np.ceil((MOST_RADIUS - LEAST_RADIUS) * width_px / RADIUS_STEP_PX)) + 1
+    count = int(np.clip(steps, FEWEST_RADII, 4 * FEWEST_RADII))
+    return np.linspace(LEAST_RADIUS, MOST_RADIUS, count) * width_px
 
 
 def _traced(

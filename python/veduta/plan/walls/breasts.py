@@ -22,7 +22,9 @@ class BreastRule:
 
     out: a breast stands out by so much, at least. deep: and by no more. long: it is no longer.
     apart: to the wall on either side, over a wall that joins there; solid: of what lies between,
-    so much is. same_px: sides of one wall differ by at most so much.
+    so much is. same_px: sides of one wall differ by at most so much. broad: a breast is at least so
+    many times as long as it stands out: what is shorter is a stub of a wall that joins, beside a
+    door.
     """
 
     out: float = 0.25
@@ -31,6 +33,7 @@ class BreastRule:
     apart: float = 1.6
     solid: float = 0.9
     same_px: float = 2.0
+    broad: float = 1.0
 
 
 BREAST = BreastRule()
@@ -97,6 +100,7 @@ def _wall_around(
         and band.low - rule.same_px <= one.low and one.high <= band.high + rule.same_px
         and rule.out * one.thick <= band.thick - one.thick <= rule.deep * one.thick
         and band.end - band.start <= rule.long * one.thick
+        and band.end - band.start >= rule.broad * (band.thick - one.thick) - rule.same_px
     ]  # fmt: skip
     before = [one for one in alike if -2.0 <= band.start - one.end <= rule.apart * one.thick]
     behind = [one for one in alike if -2.0 <= one.start - band.end <= rule.apart * one.thick]
