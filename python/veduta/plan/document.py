@@ -122,6 +122,9 @@ class Wall(_Record):
     thickness_m: Metres
     drawing: WallDrawing
     outer: bool = Field(description="whether one side is outdoors")
+    party: bool = Field(
+        default=False, description="a neighbour's house is behind it: closed, the roof goes on"
+    )
     score: Score
     origin: Origin = "measured"
 

@@ -19,6 +19,8 @@ from veduta.plan.upper_floor import upper_floor_doubts
 from veduta.run.report import counted
 
 _SHOWN = 5
+DOUBTFUL = 0.5
+"""Score of an opening below which it is doubtful."""
 UNLIKE_STOREYS = 0.7
 """Storeys of which one covers less than this part of the other are told of."""
 
@@ -35,6 +37,7 @@ def doubts(document: PlanDocument, tour: Tour | None) -> list[str]:
             *_apart(storey),
             *_strays(storey),
             *_closed_in(storey),
+            *_doubtful(storey),
             *storey.doubts,
         )
         said += [of + note for note in notes]
@@ -111,3 +114,26 @@ def _closed_in(storey: Storey) -> list[str]:
     more = f" and {len(closed) - _SHOWN} more" if len(closed) > _SHOWN else ""
     which = counted(len(closed), "room")
     return [f"no door was found into {which}: {', '.join(closed[:_SHOWN])}{more}."]
+
+
+def _doubtful(storey: Storey) -> list[str]:
+    """Which openings are doubtful, and where they are: a number of them helps nobody."""
+    rooms: dict[str, list[str]] = {}
+    for room in storey.rooms:
+        for name in room.openings:
+            rooms.setdefault(name, []).append(f"{room.name or room.use} ({room.id})")
+    found = [
+        f"{one.kind} {one.id} {_where(rooms.get(one.id, []))}"
+        for one in storey.openings
+        if one.score < DOUBTFUL
+    ]
+    if not found:
+        return []
+    more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
+    return [f"doubtful: {', '.join(found[:_SHOWN])}{more}; overlay.png has a question mark there."]
+
+
+def _where(rooms: Sequence[str]) -> str:
+    if len(rooms) == 2:
+        return f"between {rooms[0]} and {rooms[1]}"
+    return f"of {rooms[0]}" if rooms else "of no room"

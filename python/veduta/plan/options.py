@@ -108,6 +108,17 @@ class HouseOptions(Options):
             " the sheet says so"
         ),
     )
+    terraced: bool = Field(
+        default=False,
+        description=(
+            "it stands in a row: closed walls to its neighbours, over which the roof goes on, a"
+            " garden before and behind it, and the tour stays inside; so it is where the sheet says"
+            " so"
+        ),
+    )
+    neighbours: bool = Field(
+        default=False, description="blank houses beside one that stands in a row (invented)"
+    )
     surroundings: Literal["garden", "none"] = Field(
         default="garden", description="what lies around the house: ground with plants, or nothing"
     )

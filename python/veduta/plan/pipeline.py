@@ -40,6 +40,7 @@ from veduta.plan.steps import (
 )
 from veduta.plan.surroundings.panorama import Pictures, given_pictures, kept_pictures
 from veduta.plan.surroundings.site import check_site, site_of
+from veduta.plan.terrace import terrace_options, with_terrace
 from veduta.plan.upper_floor import upper_floor_options
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.plan.writing import result_of, write_result
@@ -260,7 +261,9 @@ def _make(
         notes = [*given.notes, *notes, *finished.notes]
         document = sited(finished.document, options.site, given.panorama)
         document = with_flat(document, options.house, by_text=call.kind == "drawings")
-        built = upper_floor_options(document, flat_options(document, options.house))
+        document = with_terrace(document, options.house, by_text=call.kind == "drawings")
+        built = terrace_options(document, flat_options(document, options.house))
+        built = upper_floor_options(document, built)
         otherwise = stays and (document != read or bool(options.scale.scale))
         if otherwise:
             notes = [*notes, UNWRITTEN]

@@ -12,6 +12,7 @@ from PIL import Image
 
 from veduta.imaging.encode import jpeg_bytes
 from veduta.plan.document import PlanDocument, Storey, Tiling, WallColour
+from veduta.plan.doubts import DOUBTFUL
 from veduta.plan.house.finishes import hex_of
 from veduta.plan.pages import drawing_label
 from veduta.plan.sheets import sheet_name
@@ -43,7 +44,6 @@ FILES = (
     ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),
 )
 THUMBNAIL_PX = 1200
-DOUBTFUL = 0.5
 _BASIS = {
     "evidence": "by what is written and drawn on the sheet",
     "given": "as given",

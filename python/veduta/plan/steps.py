@@ -144,7 +144,9 @@ def tour_step(
     progress("tour", 0.0)
     with timed_step(steps, "tour") as step:
         above = upper_floor([space.storey for space in house.spaces]) is not None
-        tour = find_tour(house, options.tour_speed, indoors=options.flat or above)
+        tour = find_tour(
+            house, options.tour_speed, indoors=options.flat or options.terraced or above
+        )
         if tour is None:
             step.rejected.append("there is no tour: no room has a floor on which one can stand")
             return None

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from veduta.imaging.encode import png_bytes
 from veduta.place.part import Part
-from veduta.place.place import Place
+from veduta.place.place import UNMOVED, ModelFile, Place, Standing
 from veduta.plan.building import CITY_MODEL, Building, BuildingFiles, Visit
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import House
+from veduta.plan.house.neighbours import build_neighbours
 from veduta.plan.house.placing import place_of, raised_m, visitor_start
 from veduta.plan.house.room_looks import TilePictures
 from veduta.plan.load import DOCUMENT
@@ -105,8 +106,13 @@ def write_result(
     whole = Building(house, options, result.site)
     made = [beside.take()]
     others = [] if around is None else around.parts
+    beside_it = build_neighbours(house, options, up_m) if options.neighbours else None
+    others += [] if beside_it is None else [beside_it]
     beside.give(Visit(whole, visitor_start(house), tours, others, backdrop))
     _write_sheets(result, folder)
+    if beside_it is not None:
+        standing = Standing("Neighbours", UNMOVED, arrangement="invented")
+        place.add(beside_it, standing, ModelFile(f"{beside_it.id}.glb"))
     place = _whole_place(result, place, around, backdrop)
     place.save(folder)
     write_tiles(house, place.parts[house.part.id].standing.transform, folder)

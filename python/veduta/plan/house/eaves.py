@@ -33,6 +33,14 @@ def clear_of(faces: Sequence[Rings], region: BaseGeometry) -> list[Rings] | None
     return [rings for _, rings in flat_faces(shell_of(cut))]
 
 
+def faces_within(faces: Sequence[Rings], region: BaseGeometry) -> list[Rings] | None:
+    """The faces of what of a closed roof is over a region; None where they close no solid."""
+    solid = solid_of_faces(faces)
+    if solid is None:
+        return None
+    return [rings for _, rings in flat_faces(shell_of(solid ^ extruded(region, -_DEEP_M, _DEEP_M)))]
+
+
 def solid_of_faces(faces: Sequence[Rings]) -> manifold3d.Manifold | None:
     """The solid that faces close, corners equal to the last bit; None where they close none."""
     rings = [ring for face in faces for ring in face]

@@ -7,7 +7,8 @@ some centimetres, so that its skeleton is that of AV3D's tangents ("3D generatio
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import manifold3d
 import numpy as np
@@ -18,8 +19,9 @@ from shapely.geometry.polygon import orient
 
 from veduta import _core
 from veduta.place.semantics import Provenance, SemanticClass
-from veduta.plan.house.eaves import UNDER_M, clear_of, solid_of_faces
+from veduta.plan.house.eaves import UNDER_M, clear_of, faces_within, solid_of_faces
 from veduta.plan.house.frame import Sculptor, Surface, level
+from veduta.plan.house.party import EVERYWHERE, Party, own_side, row_region
 from veduta.plan.house.space import pieces_of
 from veduta.plan.house.walls import extruded
 from veduta.plan.options import HouseOptions, RoofKind
@@ -45,19 +47,35 @@ class Roof:
     asked: RoofKind
     built: RoofKind
     faces: Solid | None
+    parties: tuple[Party, ...] = ()
+    """Sides beyond which it belongs to neighbours."""
 
 
-def roofs_over(region: BaseGeometry, options: HouseOptions) -> list[Roof]:
-    """A roof for each piece of a region, as asked, or else hipped, or else flat."""
+def roofs_over(
+    region: BaseGeometry, options: HouseOptions, parties: Sequence[Party] = ()
+) -> list[Roof]:
+    """A roof for each piece of a region, as asked, or else hipped, or else flat.
+
+    parties: sides to neighbours, where the roof of the row is cut.
+    """
     if options.roof == "none":
         return []
     kind: RoofKind = "hip" if options.roof == "auto" else options.roof
-    shapes = [(number, _smooth(piece)) for number, piece in enumerate(pieces_of(region), start=1)]
-    return [
+    row = row_region(region, parties)
+    shapes = [(number, _smooth(piece)) for number, piece in enumerate(pieces_of(row), start=1)]
+    roofs = [
         _roof(f"roof {number}", shape, kind, options)
         for number, shape in shapes
         if shape.area >= _LEAST_M2
     ]
+    return [_cut(roof, parties) for roof in roofs] if parties else roofs
+
+
+def _cut(roof: Roof, parties: Sequence[Party]) -> Roof:
+    """What of a row's roof is over this house; flat where it is no solid that can be cut."""
+    faces = None if roof.faces is None else faces_within(roof.faces, own_side(EVERYWHERE, parties))
+    built = roof.built if faces is not None else "flat"
+    return replace(roof, faces=faces, built=built, parties=tuple(parties))
 
 
 def _roof(name: str, shape: Polygon, asked: RoofKind, options: HouseOptions) -> Roof:
@@ -71,11 +89,15 @@ def _roof(name: str, shape: Polygon, asked: RoofKind, options: HouseOptions) -> 
 
 
 def add_roof(
-    region: BaseGeometry, height_m: float, sculptor: Sculptor, options: HouseOptions
+    region: BaseGeometry,
+    height_m: float,
+    sculptor: Sculptor,
+    options: HouseOptions,
+    parties: Sequence[Party] = (),
 ) -> list[str]:
     """A roof over each piece of a region; what could not be built as asked is noted."""
     notes: list[str] = []
-    for roof in roofs_over(region, options):
+    for roof in roofs_over(region, options, parties):
         if roof.built != roof.asked and roof.built == "hip":
             notes.append(f"{roof.name} is hipped: its outline allows no {roof.asked} roof")
         elif roof.built != roof.asked:
@@ -87,7 +109,7 @@ def add_roof(
             shell=sculptor.builder.new_shell(),
         )  # fmt: skip
         if roof.faces is None:
-            _add_flat(roof.shape, height_m, sculptor, feature, options.overhang)
+            _add_flat(flat_region(roof, options.overhang), height_m, sculptor, feature)
         else:
             cleared = clear_of(roof.faces, region)
             if cleared is None:
@@ -99,15 +121,15 @@ def add_roof(
 def roof_body(roof: Roof, height_m: float, options: HouseOptions) -> manifold3d.Manifold | None:
     """The roof with what hangs below the walls' top; None where it is no closed solid."""
     if roof.faces is None:
-        region = flat_region(roof.shape, options.overhang)
+        region = flat_region(roof, options.overhang)
         return extruded(region, height_m, height_m + FLAT_M)
     body = solid_of_faces(roof.faces)
     return None if body is None else body.translate([0.0, 0.0, height_m + UNDER_M])
 
 
-def flat_region(shape: Polygon, overhang_m: float) -> BaseGeometry:
+def flat_region(roof: Roof, overhang_m: float) -> BaseGeometry:
     """What a flat roof covers."""
-    return shape.buffer(min(overhang_m, 0.3), join_style="mitre")
+    return own_side(roof.shape.buffer(min(overhang_m, 0.3), join_style="mitre"), roof.parties)
 
 
 def _smooth(piece: Polygon) -> Polygon:
@@ -150,10 +172,7 @@ def _add_solid(faces: Solid, height_m: float, sculptor: Sculptor, feature: int) 
         sculptor.face(rings, frame, Surface(feature, look))
 
 
-def _add_flat(
-    shape: Polygon, height_m: float, sculptor: Sculptor, feature: int, overhang_m: float
-) -> None:
-    region = flat_region(shape, overhang_m)
+def _add_flat(region: BaseGeometry, height_m: float, sculptor: Sculptor, feature: int) -> None:
     sculptor.prism(
         region, height_m, height_m + FLAT_M, level(0.0), Surface(feature, "soffit"),
         high=Surface(feature, "flat roof"),

@@ -21,6 +21,7 @@ from veduta.plan.city.things import add_furniture, add_lamps, add_stairs, not_cl
 from veduta.plan.document import Storey
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import House
+from veduta.plan.house.party import parties_of
 from veduta.plan.house.roof import Roof, roofs_over
 from veduta.plan.house.space import UNNAMED
 from veduta.plan.options import HouseOptions
@@ -33,7 +34,7 @@ def house_cityjson(house: House, options: HouseOptions) -> tuple[bytes, list[str
     part, spaces = house.part, house.spaces
     marks = Marks()
     matter = matter_of(spaces, options.slab, marks)
-    over = roofs_over(spaces[-1].covered, options)
+    over = roofs_over(spaces[-1].covered, options, parties_of(spaces[-1]))
     roofs, notes = roofs_of(over, spaces[-1], options, marks)
     rooms, filled, airless = cavities(spaces, matter, options.slab, marks)
     notes += airless

@@ -18,6 +18,7 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.house.hole import Hole
+from veduta.plan.house.party import own_side, parties_of
 from veduta.plan.house.space import Space, pieces_of, solid_region
 
 Ground = Literal["lawn", "path", "drive", "gravel"]
@@ -83,7 +84,8 @@ def terrain_of(space: Space, slope_deg: float) -> Terrain:
     """The plot around a storey; paths lead to its doors, a drive to its garage."""
     house = space.slab
     left, bottom, right, top = house.bounds
-    plot = box(left - MARGIN_M, bottom - MARGIN_M, right + MARGIN_M, top + MARGIN_M)
+    whole = box(left - MARGIN_M, bottom - MARGIN_M, right + MARGIN_M, top + MARGIN_M)
+    (plot,) = pieces_of(own_side(whole, parties_of(space)))
     ways = ways_in(space)
     inner = house.buffer(-_UNDER_M, join_style="mitre")
     gravel = house.buffer(GRAVEL_M, join_style="mitre")
