@@ -23,7 +23,13 @@ ABOVE_M = 60.0
 ORIGIN_M = (500_000.0, 5_400_000.0, 300.0)
 """In EPSG:32632."""
 GROUND_M = 110.0
+WIDE_M = 230.0
+"""Of the ground that oblique photos show beyond the village."""
 TEXEL_M = 0.06
+PATCHES = 16
+FINER = 3
+"""Photos are painted so many times as fine and then averaged: what lies at a grazing angle would
+else be noise that differs from photo to photo."""
 
 Floats = NDArray[np.float64]
 
@@ -51,18 +57,35 @@ class Shot:
         return pixels
 
 
-def village(seed: int) -> list[list[Face]]:
+def village(seed: int, half: float = GROUND_M) -> list[list[Face]]:
     """The ground, then houses: faces of each in the order in which they are painted."""
     rng = np.random.default_rng(seed)
-    half = GROUND_M
-    ground = np.array([[-half, half, 0], [half, half, 0], [half, -half, 0], [-half, -half, 0.0]])
-    things = [[Face(ground, _noise(rng, 2 * half, 2 * half, (95, 120, 80)))]]
+    things = [_ground(rng, half)]
     for x in np.arange(-54.0, 60.0, 18.0):
         for y in np.arange(-54.0, 60.0, 18.0):
             if rng.random() < 0.85:
                 place = np.array([x, y]) + rng.uniform(-3.0, 3.0, 2)
                 things.append(_house(rng, place))
     return things
+
+
+def _ground(rng: np.random.Generator, half: float) -> list[Face]:
+    """A square in patches: one that reaches behind a camera is not painted.
+
+    Texels of a wider one are coarser.
+    """
+    texture = _noise(rng, 2.0 * GROUND_M, 2.0 * GROUND_M, (95, 120, 80))
+    cuts = np.linspace(0.0, len(texture), PATCHES + 1).astype(int)
+    places = half * (2.0 * cuts / len(texture) - 1.0)
+    faces = []
+    for row in range(PATCHES):
+        for column in range(PATCHES):
+            left, right = places[column], places[column + 1]
+            top, bottom = -places[row], -places[row + 1]
+            corners = [[left, top, 0], [right, top, 0], [right, bottom, 0], [left, bottom, 0.0]]
+            part = texture[cuts[row] : cuts[row + 1], cuts[column] : cuts[column + 1]]
+            faces.append(Face(np.array(corners), part))
+    return faces
 
 
 def _house(rng: np.random.Generator, place: Floats) -> list[Face]:
@@ -125,7 +148,8 @@ def shots(seed: int, pitch_deg: float = -90.0) -> list[Shot]:
 
 def painted(things: list[list[Face]], shot: Shot) -> NDArray[np.uint8]:
     """The photo: the ground, then the houses from the farthest on."""
-    pixels = np.zeros((SIZE_PX[1], SIZE_PX[0], 3), np.uint8)
+    fine = (FINER * SIZE_PX[0], FINER * SIZE_PX[1])
+    pixels = np.zeros((fine[1], fine[0], 3), np.uint8)
     order = sorted(
         things[1:],
         key=lambda house: -float(np.linalg.norm(house[0].corners.mean(axis=0) - shot.place)),
@@ -133,30 +157,40 @@ def painted(things: list[list[Face]], shot: Shot) -> NDArray[np.uint8]:
     for thing in [things[0], *order]:
         for face in sorted(thing, key=lambda one: float(one.corners[:, 2].mean())):
             _paint(pixels, face, shot)
-    return pixels
+    shrunk = cv2.resize(pixels, SIZE_PX, interpolation=cv2.INTER_AREA)
+    return np.asarray(shrunk, dtype=np.uint8)
 
 
 def _paint(pixels: NDArray[np.uint8], face: Face, shot: Shot) -> None:
     normal = np.cross(face.corners[1] - face.corners[0], face.corners[3] - face.corners[0])
-    corners = shot.seen(face.corners).astype(np.float32)
+    corners = FINER * shot.seen(face.corners)
     middle = face.corners.mean(axis=0)
     is_wall = abs(normal[2]) < 1e-6 * np.linalg.norm(normal)
     if not np.isfinite(corners).all() or (is_wall and normal @ (shot.place - middle) > 0.0):
         return
+    limit = np.array(pixels.shape[1::-1])
+    low = np.clip(np.floor(corners.min(axis=0)), 0, limit).astype(int)
+    high = np.clip(np.ceil(corners.max(axis=0)) + 1, 0, limit).astype(int)
+    if (high <= low).any():
+        return
     height, width = face.texture.shape[:2]
     own = np.array([[0, 0], [width, 0], [width, height], [0, height]], np.float32)
-    warp = cv2.getPerspectiveTransform(own, corners)
-    shown = cv2.warpPerspective(face.texture, warp, SIZE_PX, flags=cv2.INTER_LINEAR)
-    mask = np.zeros(pixels.shape[:2], np.uint8)
-    cv2.fillConvexPoly(mask, corners.round().astype(np.int32), 255)
-    pixels[mask > 0] = shown[mask > 0]
+    places = (corners - low).astype(np.float32)
+    warp = cv2.getPerspectiveTransform(own, places)
+    size = (int(high[0] - low[0]), int(high[1] - low[1]))
+    shown = cv2.warpPerspective(
+        face.texture, warp, size, flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+    )
+    mask = np.zeros((size[1], size[0]), np.uint8)
+    cv2.fillConvexPoly(mask, places.round().astype(np.int32), 255)
+    pixels[low[1] : high[1], low[0] : high[0]][mask > 0] = shown[mask > 0]
 
 
 def write_survey(folder: Path, seed: int, pitch_deg: float = -90.0, gps_m: float = 1.0) -> Floats:
     """The photos with GPS that is off by so much each way; (n, 3) true places, by name."""
     rng = np.random.default_rng(seed + 2)
     to_world = Transformer.from_crs("EPSG:32632", "EPSG:4326", always_xy=True)
-    things = village(seed)
+    things = village(seed, GROUND_M if pitch_deg < -80.0 else WIDE_M)
     places = []
     for number, shot in enumerate(shots(seed, pitch_deg)):
         told = shot.place + rng.normal(0.0, gps_m, 3) + ORIGIN_M

@@ -44,6 +44,13 @@ def test_doubtful_openings_are_counted_by_their_kind() -> None:
     assert line.count("doubtful") == 1
 
 
+def test_doubtful_openings_are_named_with_their_rooms() -> None:
+    (said,) = doubts(changed(None, inner={"score": 0.2}, w2={"score": 0.4, "kind": "gap"}), None)
+    assert said.startswith(
+        "doubtful: door inner between Living (living) and Bath (bath), gap w2 of Bath (bath);"
+    )
+
+
 def test_an_arrow_to_the_north_that_is_not_read_is_said() -> None:
     plan = changed()
     letter = Text(text="N", box_px=[(0, 0), (9, 0), (9, 9), (0, 9)], score=0.9)
