@@ -26,8 +26,7 @@ OBJECTS: dict[FittingKind, tuple[str, ...]] = {
 }
 """Types of the catalogue that stand for what is drawn, the larger one first.
 
-Hobs and sinks are parts of worktops: they say what a room is for, and its row of units finds its
-own wall.
+Hobs and sinks are parts of worktops, whose rows are `drawn_kitchen`'s.
 """
 DOUBLE_M = 1.25
 """A bed that is drawn wider is for two."""
@@ -78,6 +77,10 @@ def without_drawn(wishes: Sequence[Wanted], stood: Iterable[Stood]) -> list[Want
             ]
             left += [replace(wish, type=kind) for kind in lacks]
             continue
+        if wish.type == "kitchen-run" and (there["kitchen-hob"] or there["kitchen-sink"]):
+            run = ("kitchen-sink", "kitchen-hob", "fridge")
+            left += [replace(wish, type=kind) for kind in run if not there[kind]]
+            continue
         served = [kind for kind in SERVE.get(wish.type, {wish.type}) if there[kind] > 0]
         if served:
             # A bath serves both as a bath and as a shower.
@@ -104,7 +107,7 @@ def _tries(
     front = np.array([math.sin(one.turn_rad), -math.cos(one.turn_rad)])
     middle = np.asarray(one.at_m)
     back, turn = middle - front * one.size_m[1] / 2, one.turn_rad
-    wall = _wall_behind(middle, back, front, space)
+    wall = wall_behind(middle, back, front, space)
     if wall is not None:
         # Drawn lines are a little off: it stands as straight as its wall.
         front, turn = wall.inward, wall.turn
@@ -115,7 +118,7 @@ def _tries(
         yield Stood(entry, size, (round(x, 4), round(y, 4)), turn, group=group, drawn=True)
 
 
-def _wall_behind(middle: Vector, back: Vector, front: Vector, space: RoomSpace) -> Stretch | None:
+def wall_behind(middle: Vector, back: Vector, front: Vector, space: RoomSpace) -> Stretch | None:
     """The wall that a thing stands against; None where none is near its back."""
     found: list[tuple[float, Stretch]] = []
     for one in space.stretches:

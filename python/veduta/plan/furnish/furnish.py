@@ -8,12 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from veduta.plan.document import Fitting, Furniture, PlanDocument, Room, RoomUse, Stairs
+from veduta.plan.document import Fitting, Furniture, Origin, PlanDocument, Room, RoomUse, Stairs
 from veduta.plan.furnish.arrangement import Spot, Variant, alone
 from veduta.plan.furnish.as_drawn import place_drawn, without_drawn
 from veduta.plan.furnish.catalogue.entry import Wanted
 from veduta.plan.furnish.catalogue.read import Catalogue
 from veduta.plan.furnish.choice import Choice
+from veduta.plan.furnish.drawn_kitchen import place_kitchen
 from veduta.plan.furnish.groups.lounge import lounge
 from veduta.plan.furnish.groups.rows import coats, kitchen_run, wash_row
 from veduta.plan.furnish.groups.single import single
@@ -106,6 +107,7 @@ def furnish_room(
     begun = Layout(space, ways)
     own = [one for one in fittings if one.room == space.room.id]
     elsewhere = place_drawn(own, begun, choice, DRAWN_GROUP)
+    elsewhere += place_kitchen(own, begun, choice, DRAWN_GROUP)
     wishes = without_drawn(wishes, begun.stood)
     tried: list[tuple[Layout, list[str], int]] = []
     given_up: list[str] = []
@@ -232,6 +234,12 @@ def _lay_mat(layout: Layout, choice: Choice, group: int) -> bool:
     return False
 
 
+def _origin(one: Stood) -> Origin:
+    if one.drawn:
+        return "measured"
+    return "inferred" if one.between else "invented"
+
+
 def records(rooms: Sequence[FurnishedRoom]) -> list[Furniture]:
     """The things as they are kept in the document."""
     found: list[Furniture] = []
@@ -250,7 +258,7 @@ def records(rooms: Sequence[FurnishedRoom]) -> list[Furniture]:
                     size_m=one.size_m,
                     above_m=one.above_m,
                     on=None if one.on is None else ids[id(one.on)],
-                    origin="measured" if one.drawn else "invented",
+                    origin=_origin(one),
                 )
             )
     return found

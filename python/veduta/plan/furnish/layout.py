@@ -22,7 +22,7 @@ OVERHEAD_M = 1.95
 DOOR_M = 2.1
 _TOUCH_M = 1e-3
 _SILL_M, _HEAD_M = 0.03, 0.3
-"""So much higher than a sill things before a window may be, and the heads of beds."""
+"""So much higher than a sill things before a window may be, and the heads of beds and taps."""
 _CEILING_M = 0.03
 
 
@@ -31,7 +31,7 @@ class Stood:
     """A thing in its place: `at` is the middle of its base, `turn` that of `Furniture`.
 
     on: what it stands on. group: things of one group may stand in each other's free space.
-    drawn: whether the plan has it there.
+    drawn: whether the plan has it there; between: whether it follows from what is drawn beside it.
     """
 
     entry: Entry
@@ -42,6 +42,7 @@ class Stood:
     on: Stood | None = None
     group: int = 0
     drawn: bool = False
+    between: bool = False
 
     @cached_property
     def shape(self) -> Polygon:
@@ -124,7 +125,8 @@ class Layout:
             inner = thing.inner
             if thing.above_m < DOOR_M and space.blocked.intersects(inner):
                 return False
-            over = _HEAD_M if thing.entry.kind == "bed" else _SILL_M
+            tap = thing.drawn and thing.entry.type == "kitchen-sink"
+            over = _HEAD_M if tap or thing.entry.kind == "bed" else _SILL_M
             if thing.entry.type != "curtain" and any(
                 thing.top_m > window.low_m + over and window.zone.intersects(inner)
                 for window in space.windows
