@@ -24,6 +24,8 @@ class LeastHouse:
     many: int = 5
     windows_a_room: float = 8.0
     windows: int = 12
+    apart: float = 0.5
+    """Of the ends of walls, so many are free where only walls that bear are drawn."""
 
 
 LEAST = LeastHouse()
@@ -32,12 +34,24 @@ LEAST = LeastHouse()
 def check_house(storey: Storey, subject: str, least: LeastHouse = LEAST) -> None:
     """NotFoundError with the reason where what was found on a sheet cannot be a storey."""
     fault = _fault(storey, least)
-    if fault is not None:
-        raise NotFoundError(
-            "a house",
-            f"{subject} gives {fault}",
-            "Give a cleaner or larger picture of the plan alone, or its scale with --scale.",
+    if fault is None:
+        return
+    remedy = "Give a cleaner or larger picture of the plan alone, or its scale with --scale."
+    if not storey.rooms and _stand_apart(storey, least):
+        fault = (
+            f"{len(storey.walls)} walls that mostly stand apart and close no room, as drawings do"
+            " that show the bearing walls or columns alone"
         )
+        remedy = "Give the plan that shows all walls of the rooms, with their doors and windows."
+    raise NotFoundError("a house", f"{subject} gives {fault}", remedy)
+
+
+def _stand_apart(storey: Storey, least: LeastHouse) -> bool:
+    """Whether walls mostly end where no other wall is, and nothing opens in them."""
+    free = {one.id for one in storey.junctions if one.type == "end"}
+    ends = [name for wall in storey.walls for name in (wall.start, wall.end)]
+    doors = any(one.kind == "door" for one in storey.openings)
+    return not doors and sum(name in free for name in ends) >= least.apart * max(1, len(ends))
 
 
 def _fault(storey: Storey, least: LeastHouse) -> str | None:

@@ -109,3 +109,22 @@ def test_storeys_that_differ_in_size_are_told() -> None:
     assert "upper" in said
     both = plan.model_copy(update={"storeys": [lower, upper]})
     assert said in doubts(both, None)
+
+
+def test_walls_that_stand_apart_are_called_bearing_walls() -> None:
+    plan = sample_plan().storeys[0]
+    ends = [
+        one.model_copy(update={"id": f"{one.id}-{number}", "type": "end"})
+        for one in plan.junctions
+        for number in range(3)
+    ]
+    walls = [
+        wall.model_copy(update={"start": f"{wall.start}-1", "end": f"{wall.end}-2"})
+        for wall in plan.walls
+    ]
+    apart = plan.model_copy(
+        update={"rooms": [], "openings": [], "junctions": ends, "walls": walls, "stairs": []}
+    )
+    with pytest.raises(NotFoundError, match="bearing walls or columns alone") as caught:
+        check_house(apart, "columns.png")
+    assert "all walls of the rooms" in str(caught.value)
