@@ -2,10 +2,11 @@
 
 `python benchmarks studio/loading NAME=FOLDER ... [--mbit 1.5,10] [--result loading]` serves each
 place with `veduta view`, opens it in Chromium (`visit.mjs`) and keeps
-`benchmarks/results/studio-RESULT.md`. Without folders it makes 60 lots of its own. With
-`--kept FILE` rows that are there already are not measured again: a call that is stopped goes on.
-What a page counts (bytes, textures, draws, triangles, heap) does not depend on what else the
-machine does; times do.
+`benchmarks/results/studio-RESULT.md`. Without folders it makes places of its own, without any
+data (`own_places.py`): all kinds, or those of `--own "facade,60 lots"`; `--places FOLDER` keeps
+them, and takes those that are there already. With `--kept FILE` rows that are there already are
+not measured again: a call that is stopped goes on. What a page counts (bytes, textures, draws,
+triangles, heap) does not depend on what else the machine does; times do.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-
+from own_places import KINDS, own_places
 from record import Row, record
 
 HERE = Path(__file__).parent
@@ -60,45 +61,14 @@ def visit(name: str, place: Path, mbit: float, picture: Path | None) -> Row:
     return {"place": name, "mbit_s": mbit, **rounded}
 
 
-def own_places(folder: Path) -> dict[str, Path]:
-    """Places that are made in less than a minute."""
-    rows = folder / "lots.geojson"
-    rows.write_text(json.dumps(_lots(60)))
-    made = {"60 lots": folder / "lots60"}
-    call: list[str | Path] = [
-        VEDUTA,
-        "grammar",
-        "derive",
-        "haussmann",
-        "--lots",
-        rows,
-        "-o",
-        made["60 lots"],
-    ]
-    subprocess.run(call, check=True, capture_output=True)
-    return made
-
-
-def _lots(count: int) -> dict[str, object]:
-    """Two rows of lots along a street, 14 m wide each."""
-    features = []
-    for number in range(count):
-        x, y = 14.0 * (number // 2), 26.0 * (number % 2)
-        ring = [[x, y], [x + 14, y], [x + 14, y + 12], [x, y + 12], [x, y]]
-        features.append(
-            {
-                "type": "Feature",
-                "properties": {"id": f"lot-{number}", "height": 18.0 + number % 5},
-                "geometry": {"type": "Polygon", "coordinates": [ring]},
-            }
-        )
-    return {"type": "FeatureCollection", "features": features}
-
-
 def main() -> None:
     """Measure and keep."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("places", nargs="*", metavar="NAME=FOLDER")
+    parser.add_argument("--own", help=f"kinds of places to make, of {', '.join(KINDS)}")
+    parser.add_argument(
+        "--places", dest="places_in", type=Path, help="folder for those that are made"
+    )
     parser.add_argument("--mbit", default="0", help="network speeds, commas between them")
     parser.add_argument("--result", default="loading", help="name of the result's file")
     parser.add_argument("--kept", type=Path, help="JSON of rows, to go on from")
@@ -106,7 +76,9 @@ def main() -> None:
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         named = dict(one.split("=", 1) for one in given.places)
-        places = {name: Path(path) for name, path in named.items()} or own_places(Path(folder))
+        kinds = [kind for kind in KINDS if given.own is None or kind in given.own]
+        places = {name: Path(path) for name, path in named.items()}
+        places = places or own_places(given.places_in or Path(folder), kinds)
         rows = (
             list(json.loads(given.kept.read_text())) if given.kept and given.kept.exists() else []
         )

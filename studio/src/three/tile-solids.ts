@@ -43,7 +43,12 @@ export class TileSolids {
 
   /** Whether it can be told what of the tile one bumps into without doing anything for it. */
   has(scene: Object3D): boolean {
-    return this.#solids.has(scene) || this.#growing.has(scene);
+    const known = this.#solids.get(scene);
+    if (known === undefined) return this.#growing.has(scene);
+    // The most recently used is the last.
+    this.#solids.delete(scene);
+    this.#solids.set(scene, known);
+    return true;
   }
 
   drop(scene: Object3D): void {

@@ -37,7 +37,8 @@ import { TileSolids } from "./tile-solids.ts";
 
 const COLOURING_STRENGTH = 0.78;
 /** Whoever walks bumps into nothing of what is farther away before he has walked for some seconds (m). */
-const AHEAD_M = 15;
+const AHEAD_M = 8;
+const MOST_AHEAD = 3;
 /** After so many rounds in which nothing is on its way nothing will come. */
 const CALM_ROUNDS = 20;
 /** Plainer tiles than with an error of so much on the screen there are not. */
@@ -378,7 +379,10 @@ export class Town implements Obstacles {
   /** Lets a worker grow what a walker may soon bump into. */
   #growAhead(eye: Vec3): void {
     const reach = new Box3().setFromCenterAndSize(new Vector3(...eye), new Vector3(2 * AHEAD_M, 2 * AHEAD_M, 2 * AHEAD_M));
-    for (const [scene, { model }] of this.#within(reach)) {
+    const at = new Vector3(...eye);
+    const away = ({ box }: Loaded): number => box?.distanceToPoint(at) ?? 0;
+    // The nearest few alone: more than are kept would push each other out, and be grown anew for each picture.
+    for (const [scene, { model }] of [...this.#within(reach)].sort(([, a], [, b]) => away(a) - away(b)).slice(0, MOST_AHEAD)) {
       if (!this.#solids.has(scene)) this.#inPlace(scene, () => this.#solids.growAhead(scene, model));
     }
   }
