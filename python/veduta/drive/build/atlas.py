@@ -15,6 +15,9 @@ from veduta.drive.build.frame import ColumnFrame
 from veduta.drive.build.pictures_of import Seen
 
 
+_ROWS_AT_ONCE = 64
+
+
 @dataclass(frozen=True)
 class AtlasParameters:
     """in_front_m: what hides a texel is so much nearer than it. steepest: cosine of the angle
@@ -231,10 +234,15 @@ def _undisturbed(
 
 def _median_seen(colour: NDArray[np.uint8], seen: NDArray[np.bool_]) -> NDArray[np.float32]:
     """(h, w, 3) the middle of what the images that see a texel show; 0 where none does."""
-    order = np.sort(np.where(seen[..., None], colour.astype(np.int16), 999), axis=0)
-    at = np.maximum((seen.sum(axis=0) - 1) // 2, 0)
-    middle = np.take_along_axis(order, at[None, ..., None], axis=0)[0]
-    return np.where(middle == 999, 0, middle).astype(np.float32)
+    middle = np.empty(colour.shape[1:], dtype=np.float32)
+    for top in range(0, colour.shape[1], _ROWS_AT_ONCE):  # many images of large atlases
+        rows = slice(top, top + _ROWS_AT_ONCE)
+        some = np.where(seen[:, rows, :, None], colour[:, rows].astype(np.int16), 999)
+        some.sort(axis=0)
+        at = np.maximum((seen[:, rows].sum(axis=0) - 1) // 2, 0)
+        found = np.take_along_axis(some, at[None, ..., None], axis=0)[0]
+        middle[rows] = np.where(found == 999, 0, found)
+    return middle
 
 
 def _chosen(

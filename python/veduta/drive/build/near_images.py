@@ -22,11 +22,13 @@ T = TypeVar("T")
 @dataclass(frozen=True)
 class NearParameters:
     """near_m: images taken farther away add nothing to a facade, and nothing farther hides one.
-    held_images, held_segments: in memory at once. moved_m: images taken so far apart are compared:
+    most_images: of a segment; of more each second, third ... is taken, the same ones for segments
+    beside each other. held_images, held_segments: in memory at once. moved_m: images taken so far apart are compared:
     from nearer ones nothing moves, farther ones differ.
     """
 
     near_m: float = 45.0
+    most_images: int = 40
     held_images: int = 24
     held_segments: int = 6
     moved_m: tuple[float, float] = (0.05, 5.0)
@@ -56,7 +58,11 @@ class NearImages:
         if not len(self._shots):
             return []
         distance, _ = cKDTree(np.array(segment.line)[:, :2]).query(self._places[:, :2])
-        return [self._one(row) for row in np.flatnonzero(distance < self._chosen.near_m).tolist()]
+        rows = np.flatnonzero(distance < self._chosen.near_m)
+        every = 1
+        while (rows % every == 0).sum() > self._chosen.most_images:
+            every += 1
+        return [self._one(row) for row in rows[rows % every == 0].tolist()]
 
     def _one(self, row: int) -> Seen:
         def made() -> Seen:
