@@ -14,7 +14,8 @@ import rasterio
 from numpy.typing import NDArray
 from rasterio.transform import from_origin
 
-from veduta.drive.read.localise import LocaliseParameters, localise
+from veduta.drive.read.localise import LocaliseParameters, _must_be_here, localise
+from veduta.drive.read.rivals import Margin
 from veduta.drive.read.scan_chain import ScanChain, chain_scans
 from veduta.drive.read.surface_model import SurfaceModel, read_surface_model
 from veduta.run.errors import InputError, NotFoundError
@@ -184,3 +185,23 @@ def test_faulty_models_are_refused(tmp_path: Path) -> None:
         file.write(np.zeros((4, 4), np.float32), 1)
     with pytest.raises(InputError, match="no heights"):
         read_surface_model(empty, 3.6)
+
+
+@pytest.mark.parametrize(
+    ("own", "rival", "sharp", "why"),
+    [
+        (0.5, 0.48, 0.6, "fits it as well 5 m away"),
+        (-0.1, 0.2, 0.6, "fits it as well 5 m away"),
+        (0.5, 0.2, 0.35, "35 % of the points near its edges lie on them"),
+        (0.5, 0.45, 0.41, None),
+    ],
+)
+def test_a_place_that_is_no_better_than_others_is_refused(
+    own: float, rival: float, sharp: float, why: str | None
+) -> None:
+    margin = Margin(own, rival, (3.0, -4.0))
+    if why is None:
+        _must_be_here(margin, sharp, LocaliseParameters())
+        return
+    with pytest.raises(NotFoundError, match=why):
+        _must_be_here(margin, sharp, LocaliseParameters())

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from veduta.drive.read.rivals import Margin, margin_of
+from veduta.drive.read.rivals import Margin, margin_of, sharpness_of
 from veduta.drive.read.surface_model import SurfaceModel
 
 CELL_M = 0.5
@@ -57,6 +57,20 @@ def test_what_repeats_has_none() -> None:
     # The piers are 6 m apart along x.
     assert abs(margin.away[1]) < 0.6
     assert abs(margin.away[0]) % 6.0 == pytest.approx(0.0, abs=0.5)
+
+
+def test_points_on_edges_are_sharp_and_strewn_ones_are_not() -> None:
+    edge = _lines(6.0)
+    poses, scans = _scans(edge)
+    assert sharpness_of(poses, scans, _model(edge)) == pytest.approx(1.0, abs=0.03)
+    wall = np.zeros_like(edge)
+    wall[100] = True
+    random = np.random.default_rng(7)
+    strewn = [random.uniform([-15.0, 5.0], [15.0, 15.0], (400, 2)) for _ in poses]
+    level = np.column_stack([poses[:, :2], np.zeros(len(poses))])
+    assert sharpness_of(level, strewn, _model(wall)) == pytest.approx(1 / 3, abs=0.04)
+    away = poses + np.array([500.0, 0.0, 0.0])
+    assert sharpness_of(away, scans, _model(edge)) == 0.0
 
 
 def test_off_the_map_nothing_fits() -> None:

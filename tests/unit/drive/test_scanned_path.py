@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rasterio.transform import from_origin
 
 from veduta.drive.read.clocks import clock_apart
-from veduta.drive.read.localise import Localised
+from veduta.drive.read.localise import Localised, LocaliseParameters
 from veduta.drive.read.own import read_own
 from veduta.drive.read.rivals import Margin
 from veduta.drive.read.scan_chain import ScanChain
@@ -186,7 +186,7 @@ def test_over_an_aerial_photo_the_road_is_level(
     start = f"\n[surface]\nfile = 'photo.tif'\nstart = [{EAST_M}, {NORTH_M}]\n"
     toml.write_text(toml.read_text() + start)
 
-    def found(chain: ScanChain, *_: object) -> Localised:
+    def found(chain: ScanChain, *_: object, **__: object) -> Localised:
         poses = chain.poses + np.array([EAST_M, NORTH_M, 0.0])
         count = len(poses)
         moved = np.zeros((count, 2))
@@ -207,3 +207,23 @@ def test_over_an_aerial_photo_the_road_is_level(
     assert any("taken for level" in note for note in record.notes)
     assert [doubt[:4] for doubt in record.doubts] == (["60 %", "the "] if doubted else [])
     assert all(doubted in doubt for doubt in record.doubts[1:])
+
+
+@pytest.mark.parametrize("sure", [False, True])
+def test_who_is_sure_is_not_refused_for_what_is_alike(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, sure: bool
+) -> None:
+    _aerial_photo(folder / "photo.tif")
+    toml = folder / "drive.toml"
+    start = f"\n[surface]\nfile = 'photo.tif'\nstart = [{EAST_M}, {NORTH_M}]\n"
+    toml.write_text(toml.read_text() + start + f"sure = {str(sure).lower()}\n")
+    rules: list[LocaliseParameters] = []
+
+    def found(*_: object, parameters: LocaliseParameters) -> Localised:
+        rules.append(parameters)
+        raise NotFoundError("the place", "nothing is looked for", "Look.")
+
+    monkeypatch.setattr("veduta.drive.read.scanned_path.localise", found)
+    with pytest.raises(NotFoundError):
+        read_own(folder)
+    assert (rules[0].least_margin > 0.0) == (rules[0].least_sharp > 0.0) == (not sure)

@@ -99,6 +99,10 @@ class Surface(_Record):
     within_deg: Annotated[Finite, Field(gt=0.0, le=180.0)] = Field(
         default=30.0, description="how far off `heading_deg` may be"
     )
+    sure: bool = Field(
+        default=False,
+        description="model and start are right: a path that fits elsewhere, too, is not refused",
+    )
 
 
 class Positions(_Record):

@@ -7,7 +7,7 @@ places nearby fit about as well; where the drive was, none does.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,11 @@ Floats = NDArray[np.float64]
 class RivalParameters:
     """sigma_m: of points about edges, the stiffness of the path included. own_m: places nearer are
     the same one. rival_m: places from there to `farthest_m` are rivals. step_m: between places that
-    are looked at; the best of them are refined by `fine_m`. turns_rad: headings that are tried.
-    scans, points: so many are laid onto the model. passed_at: part of a beam's way at which nothing
-    may stand.
+    are looked at; so many as `refined` of the best are looked at again by `fine_m`, with points
+    about edges by `sharp_m`: streets are alike but for decimetres by which their fronts step.
+    turns_rad: headings that are tried. scans, points: so many are laid onto the model. passed_at:
+    part of a beam's way at which nothing may stand. near, wide: deviations, in cells of the model's
+    edges, by which the sharpness of a path is told.
     """
 
     sigma_m: float = 0.6
@@ -31,11 +33,14 @@ class RivalParameters:
     rival_m: float = 4.0
     farthest_m: float = 24.0
     step_m: float = 1.0
-    fine_m: float = 0.25
-    turns_rad: tuple[float, ...] = (-0.08, -0.04, 0.0, 0.04, 0.08)
-    scans: int = 60
+    fine_m: float = 0.125
+    turns_rad: tuple[float, ...] = (-0.04, -0.02, 0.0, 0.02, 0.04)
+    scans: int = 80
     points: int = 40
-    refined: int = 8
+    refined: int = 16
+    sharp_m: float = 0.3
+    near: float = 0.8
+    wide: float = 2.4
     passed_at: float = 0.75
 
 
@@ -88,18 +93,38 @@ def _refined(
     places: Floats, around: Floats, middle: Floats, model: SurfaceModel, chosen: RivalParameters
 ) -> tuple[float, Floats]:
     """The best fit among places (p, 2) and finer ones about the best of them."""
-    best, where = -1.0, places[0]
-    fine = np.arange(-chosen.step_m / 2, chosen.step_m / 2 + 1e-9, chosen.fine_m)
-    finer = np.stack(np.meshgrid(fine, fine, indexing="ij"), axis=2).reshape(-1, 2)
+    laid, rough = [], []
     for turn in chosen.turns_rad:
         cosine, sine = np.cos(turn), np.sin(turn)
-        turned = middle + around @ np.array([[cosine, sine], [-sine, cosine]])  # (2, n, 2)
-        rough = fits_of(places, turned, model, chosen)
-        for row in np.argsort(-rough, kind="stable")[: chosen.refined].tolist():
-            own = fits_of(places[row] + finer, turned, model, chosen)
-            if own.max() > best:
-                best, where = float(own.max()), places[row] + finer[int(own.argmax())]
+        laid.append(middle + around @ np.array([[cosine, sine], [-sine, cosine]]))  # (2, n, 2)
+        rough.append(fits_of(places, laid[-1], model, chosen))
+    order = np.argsort(-np.concatenate(rough), kind="stable")[: chosen.refined]
+    fine = np.arange(-chosen.step_m / 2, chosen.step_m / 2 + 1e-9, chosen.fine_m)
+    finer = np.stack(np.meshgrid(fine, fine, indexing="ij"), axis=2).reshape(-1, 2)
+    sharp = replace(chosen, sigma_m=chosen.sharp_m)
+    best, where = -1.0, places[0]
+    for turn, row in zip(*np.divmod(order, len(places)), strict=True):
+        fits = fits_of(places[row] + finer, laid[turn], model, sharp)
+        if fits.max() > best:
+            best, where = float(fits.max()), places[row] + finer[int(fits.argmax())]
     return best, where
+
+
+def sharpness_of(
+    poses: Floats,
+    scans: Sequence[Floats],
+    model: SurfaceModel,
+    parameters: RivalParameters | None = None,
+) -> float:
+    """How many of the points near edges lie right on them: a third where they are strewn about, as
+    in a model of another place; 1 where all do. 0 where none is near one.
+    """
+    chosen = parameters or RivalParameters()
+    off = _distances(laid_scans(poses, scans, 1.0, chosen), model) / model.cell_m
+    near, wide = (
+        float(np.exp(-0.5 * (off / width) ** 2).sum()) for width in (chosen.near, chosen.wide)
+    )
+    return near / wide if wide > 0.0 else 0.0
 
 
 def fits_of(places: Floats, points: Floats, model: SurfaceModel, chosen: RivalParameters) -> Floats:

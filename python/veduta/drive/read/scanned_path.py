@@ -7,7 +7,7 @@ found in it and gets its height and pitch from the ground there.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +17,7 @@ from pyproj.exceptions import CRSError
 from scipy import ndimage
 
 from veduta.drive.document.log import DriveLog, Scanner, Surface
-from veduta.drive.read.localise import localise
+from veduta.drive.read.localise import LocaliseParameters, localise
 from veduta.drive.read.loops import close_loops
 from veduta.drive.read.scan_chain import ScanChain, chain_scans
 from veduta.drive.read.spool import SpooledScans
@@ -33,9 +33,9 @@ _FEWEST_MATCHED = 0.5
 _SURE_FIT = 0.8
 """Share of points on edges: five of the six wrong places that were followed in the Delft tile had
 less (`benchmarks/results/drive-localise-delft.md`)."""
-_LEAST_MARGIN = 0.1
-"""Share of a path's fit that no place around has. A synthetic street had 0.11 in its own model and
-less than 0 in another's; that is too little to refuse a model by."""
+_LEAST_MARGIN = 0.13
+"""Share of a path's fit that no place around has. Synthetic streets have 0.13 and more in their own
+models; what has less than `LocaliseParameters.least_margin` is refused."""
 _GPS_M = 15.0
 """How far off a GPS may be between buildings."""
 
@@ -94,7 +94,10 @@ def find_path(
     model = read_surface_model(model_path, float(scanner.vehicle_from_scanner[11]))
     crs = _crs(log, model, folder / log.surface.file)
     start, reach = _start(folder, source, log, log.surface, model, crs, float(times[0]))
-    placed = localise(chain, model, start, reach, seed, loops)
+    rule = LocaliseParameters()
+    if log.surface.sure:
+        rule = replace(rule, least_margin=-np.inf, least_sharp=0.0)
+    placed = localise(chain, model, start, reach, seed, loops, parameters=rule)
     poses = chain.all_poses(placed.poses)
     ground, slope = _ground_along(model, poses)
     if not np.isfinite(ground).any():
