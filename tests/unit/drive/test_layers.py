@@ -67,6 +67,20 @@ def test_filled_background_lies_in_the_true_planes(layers: Layers, frame: Column
     assert np.sqrt(np.mean(vertices[ground][:, 2] ** 2)) < 0.05
 
 
+def test_the_road_below_the_vehicle_is_filled() -> None:
+    line = path()
+    angles = np.deg2rad(np.arange(-89.0, 60.0, 0.4))
+    frame = column_frame(line, "left", angles, line[:, 2] - SENSOR_M)
+    points, _ = street()  # of the road from 1.5 m on
+    sorted_points = sort_into_columns(points, frame, 1.0, FARTHEST_M)
+    background = fill_background(split_layers(sorted_points, frame, FARTHEST_M), frame)
+    lowest = background.depth[0]
+    np.testing.assert_allclose(lowest, SENSOR_M * np.tan(np.deg2rad(1.0)), atol=0.01)
+    assert (background.source[0] == Source.FILLED).all()
+    height = frame.vertices(background.depth)[:20, :, 2]
+    np.testing.assert_allclose(height, 0.0, atol=0.03)
+
+
 def test_surface_faces_the_street(layers: Layers, frame: ColumnFrame) -> None:
     background = fill_background(layers, frame)
     surface = build_surface(background.depth, background.source, background.wall, frame)

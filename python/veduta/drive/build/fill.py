@@ -31,7 +31,6 @@ class FillParameters:
     differ more are of two houses. road_m: the ground is filled so far out where nothing stands.
     alone: measured pixels with fewer measured ones around (7 x 7) are removed.
     smooth_m: how much the surface may move where it is smoothed (3 sigma of the scanner, 3.5 cm).
-    seen: a row of which a smaller share is measured is outside of the scanner's fan.
     """
 
     gap_m: float = 6.0
@@ -41,7 +40,6 @@ class FillParameters:
     road_m: float = 12.0
     alone: int = 5
     smooth_m: float = 0.1
-    seen: float = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,7 +184,10 @@ def _ground_depth(
     upper: NDArray[np.bool_],
     chosen: FillParameters,
 ) -> NDArray[np.float32]:
-    """(r, c) depths at which the beams below the wall meet the ground, measured ones kept."""
+    """(r, c) depths at which the beams below the wall meet the ground, measured ones kept.
+
+    The road below the vehicle is of it, too: scanners do not see it, images taken before do.
+    """
     down = np.tan(np.minimum(frame.angles_rad, -1e-3))[:, None]
     columns = np.broadcast_to(np.arange(frame.shape[1]), frame.shape)
     height = frame.road_m - frame.origins[:, 2]
@@ -196,17 +197,9 @@ def _ground_depth(
         near = np.clip(depth, 0.0, limit)
         depth = (height + layers.ground.under(columns, near)) / down
     ground = (frame.angles_rad[:, None] < 0.0) & ~upper & (depth <= limit) & (depth > 0.0)
-    ground &= np.arange(frame.shape[0])[:, None] >= _lowest_row(measured, chosen.seen)
     return np.where(np.isfinite(measured), measured, np.where(ground, depth, np.nan)).astype(
         np.float32
     )
-
-
-def _lowest_row(measured: NDArray[np.float32], least: float) -> int:
-    """The beams below see nothing: the road under a scanner that looks level."""
-    share = np.isfinite(measured).mean(axis=1)
-    seen = np.flatnonzero(share > least)
-    return int(seen[0]) if len(seen) else 0
 
 
 def _smoothed(

@@ -32,11 +32,11 @@ _BEFORE_ATLAS, _BEFORE_FILL = 0.1, 0.4
 @dataclass(frozen=True)
 class PlanesParameters:
     """nearest_m: nearer to the path is the road under the vehicle. lowest_deg, highest_deg: beams
-    of the virtual scanner, over level.
+    of the virtual scanner, over level: almost below it, where the grounds of both sides meet.
     """
 
     nearest_m: float = 1.0
-    lowest_deg: float = -85.0
+    lowest_deg: float = -89.0
     highest_deg: float = 72.0
 
 
