@@ -70,7 +70,9 @@ def main() -> None:
 LEGEND = (
     "Roofs: of fronts that end in nothing but a cornice or parapet (none), in a slope (roof) or a"
     " gable or hip, how many are told as each. Arches: of openings that were read where all are"
-    " arched, and where all are level, how many are told as arched. No picture was tuned on."
+    " arched, and where all are level, how many are told as arched. No picture was tuned on but"
+    " b0280, which the step for glass was looked at on, and modern-slab 3 and 5, which were told as"
+    " gables before blocks on flat roofs were parted from these."
 )
 
 
