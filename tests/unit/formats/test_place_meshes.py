@@ -33,7 +33,7 @@ def bounds(place: Place, turn: np.ndarray | None = None) -> np.ndarray:
     return np.array([points.min(axis=0), points.max(axis=0)])
 
 
-@pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb"])
+@pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb", ".dae"])
 def test_trimesh_reads_the_same_place(place: Place, suffix: str, tmp_path: Path) -> None:
     path = tmp_path / f"place{suffix}"
     place.write(path)
