@@ -157,7 +157,7 @@ def test_a_lens_with_no_prism_and_no_tilt_is_the_rational_one(tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("name", "text", "words"),
     [
-        ("calib.txt", "P0: 1 2 3\nP1: 1 2 3\n", "P0 has not twelve numbers"),
+        ("calib.txt", "P0: 1 2 3\nP1: 1 2 3\n", "line 1 has 3 numbers, not 12"),
         ("calib.txt", KITTI.splitlines()[0], "has no matrices P0 and P1"),
         ("calib.txt", "hello = world", "has no camera matrix cam0"),
         ("calib.txt", MIDDLEBURY.replace("baseline=500", "baseline=x"), "no baseline"),

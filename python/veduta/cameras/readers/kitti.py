@@ -8,6 +8,7 @@ first one's frame; the number in a picture's name is its frame. Metres; up is -y
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +31,7 @@ FOLDERS = {
 """The folders of pictures, and the cameras that took them."""
 _LAYOUT = "Give a folder with calib.txt, poses.txt and image_2 (or image_0, image_l and the like)."
 _UP = (0.0, -1.0, 0.0)
+_PROJECTION = re.compile(r"P(?:_rect_)?0?(\d)")
 
 
 def find(folder: Path) -> Path | None:
@@ -58,19 +60,44 @@ def read(found: Path, images: Path | None) -> CameraSet:
     )
 
 
+@dataclass(frozen=True)
+class CalibrationRow:
+    """A line of a calibration file: its number from 1, its key (none where it has none), words."""
+
+    line: int
+    key: str | None
+    words: list[str]
+
+    @property
+    def camera(self) -> int | None:
+        """The number of the camera whose projection it is; None of other lines with a key."""
+        found = None if self.key is None else _PROJECTION.fullmatch(self.key)
+        return None if found is None else int(found[1])
+
+
+def calibration_rows(text: str) -> list[CalibrationRow]:
+    """The lines of KITTI's calibration files that are not empty, in their order."""
+    rows = []
+    for line, words in lines_of(text):
+        key, colon, rest = " ".join(words).partition(":")
+        row = CalibrationRow(line, key.strip(), rest.split())
+        rows.append(row if colon else CalibrationRow(line, None, words))
+    return rows
+
+
 def read_calibration(path: Path) -> dict[int, Floats]:
     """(3, 4) px from the first camera's frame, by the number of the camera."""
+    return projections(path, read_text(path))
+
+
+def projections(path: Path, text: str) -> dict[int, Floats]:
+    """The same of a text: lines `P0:` to `P3:` (`P_rect_02:`), or bare ones in that order."""
     matrices: dict[int, Floats] = {}
-    for place, words in lines_of(read_text(path)):
-        key = words[0].rstrip(":") if words[0].endswith(":") else None
-        if key is None:
-            number = len(matrices)
-        elif re.fullmatch(r"P(?:_rect_0)?\d", key):
-            number = int(key[-1])
-        else:
-            continue
-        values = numbers(path, f"line {place}", words[0 if key is None else 1 :], 12)
-        matrices[number] = values.reshape(3, 4)
+    for row in calibration_rows(text):
+        number = len(matrices) if row.key is None else row.camera
+        if number is not None:
+            values = numbers(path, f"line {row.line}", row.words, 12)
+            matrices[number] = values.reshape(3, 4)
     if not matrices:
         raise InputError(path, "has no matrix P0 to P3", _LAYOUT)
     return matrices

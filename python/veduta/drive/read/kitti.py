@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
+from veduta.cameras.readers.kitti import calibration_rows
 from veduta.drive.read.level import level_road
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
@@ -80,12 +81,11 @@ def read_velodyne(path: Path) -> NDArray[np.float64]:
 
 def _calibration(path: Path) -> dict[str, NDArray[np.float64]]:
     found = {}
-    for number, line in enumerate(text_of(path).splitlines(), 1):
-        name, colon, rest = line.partition(":")
-        if colon and rest.strip():
-            values = numbers_of(rest, path, number)
+    for row in calibration_rows(text_of(path)):
+        if row.key is not None and row.words:
+            values = numbers_of(" ".join(row.words), path, row.line)
             if len(values) == 12:
-                found[name.strip()] = values.reshape(3, 4)
+                found[row.key] = values.reshape(3, 4)
     return found
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.cameras.readers.kitti import calibration_rows
 from veduta.drive.read.kitti import (
     beside_grey,
     image_size,
@@ -19,6 +20,7 @@ from veduta.drive.read.kitti import (
     needed_matrix,
     numbers_of,
     read_velodyne,
+    text_of,
 )
 from veduta.drive.read.level import level_road
 from veduta.drive.record import DriveRecord, Shot, Sweep
@@ -109,10 +111,9 @@ def _turns(angle: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
 def _named(path: Path) -> dict[str, NDArray[np.float64]]:
     """The lines `name: numbers` of a calibration file."""
     found = {}
-    for number, line in enumerate(lines_of(path), 1):
-        name, _, rest = line.partition(":")
-        if rest.strip() and name != "calib_time":
-            found[name.strip()] = numbers_of(rest, path, number)
+    for row in calibration_rows(text_of(path)):
+        if row.words and row.key not in {None, "calib_time"}:
+            found[str(row.key)] = numbers_of(" ".join(row.words), path, row.line)
     return found
 
 
