@@ -73,7 +73,8 @@ def unpack_bag(
         raise InputError(path, "there is no such bag", "drive.toml names it: put it there.")
     scratch.mkdir(parents=True, exist_ok=True)
     notes: list[str] = []
-    with _opened(path, scratch, notes) as reader:
+    with _opened(path, scratch) as (reader, mended):
+        notes += mended
         wanted = {topic: table for table, topic in bag.topics.items()}
         if len(wanted) < len(bag.topics):
             fault = "bag.topics: gives one topic to two tables"
@@ -120,8 +121,9 @@ def _messages(
 
 
 @contextmanager
-def _opened(path: Path, scratch: Path, notes: list[str]) -> Iterator[AnyReader]:
-    """The bag, or, where it was cut off, what is whole in it."""
+def _opened(path: Path, scratch: Path) -> Iterator[tuple[AnyReader, list[str]]]:
+    """The bag, or, where it was cut off, what is whole in it, and a note that it was."""
+    notes: list[str] = []
     store = get_typestore(Stores.ROS2_HUMBLE)
     reader = AnyReader([path], default_typestore=store)
     try:
@@ -137,7 +139,7 @@ def _opened(path: Path, scratch: Path, notes: list[str]) -> Iterator[AnyReader]:
         except _FAULTS as again:
             raise InputError(path, f"cannot be read ({again})", "Copy the bag again.") from again
     try:
-        yield reader
+        yield reader, notes
     finally:
         reader.close()
 

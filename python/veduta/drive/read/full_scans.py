@@ -16,7 +16,7 @@ from veduta.drive.read.poses import poses_at, poses_of
 from veduta.drive.read.registration import register_scans
 from veduta.drive.read.shots import file_beside, shots_of
 from veduta.drive.read.tables import read_table, time_column
-from veduta.drive.record import DriveRecord, Sweep
+from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
 
 _AHEAD = np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
@@ -26,13 +26,14 @@ Read = Callable[[], NDArray[np.float64]]
 
 
 def read_full(
-    source: Path, log: DriveLog, scanner: FullScanner, seed: int, notes: list[str]
+    source: Path, log: DriveLog, scanner: FullScanner, seed: int, before: tuple[str, ...]
 ) -> DriveRecord:
     """source: where the tables lie. Without a [path] the scans are registered onto each other.
+    before: notes of what was done to the log until now.
 
     InputError names the file; NotFoundError says where scans without poses match none.
     """
-    path = source / scanner.table
+    path, notes = source / scanner.table, [*before]
     table = read_table(path, ("time_s", "file"))
     own = time_column(path, table) + scanner.clock_offset_s
     order = np.argsort(own, kind="stable")
@@ -68,7 +69,10 @@ def read_full(
         Sweep(name, float(own[row]), place, read)
         for name, row, place, read in zip(names, order.tolist(), places, reads, strict=True)
     )
-    shots = () if log.camera is None else shots_of(source, log.camera, times, poses, notes)
+    shots: tuple[Shot, ...] = ()
+    if log.camera is not None:
+        shots, missing = shots_of(source, log.camera, times, poses)
+        notes += missing
     return DriveRecord(
         log.name, sweeps, shots, log.path is not None, height_m, True, log.crs, log.origin,
         tuple(notes), path_from,

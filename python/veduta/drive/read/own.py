@@ -79,7 +79,7 @@ def read_own(
     else:
         source = folder
     if log.full is not None:
-        return read_full(source, log, log.full, seed, notes)
+        return read_full(source, log, log.full, seed, tuple(notes))
     if log.vertical is None:
         fault = "names neither a [vertical] scanner nor [full] scans"
         raise InputError(folder / LOG, fault, "docs/drive.md describes both.")
@@ -93,22 +93,26 @@ def read_own(
         path_from = "poses of the log"
     elif log.horizontal is not None:
         level = SpooledScans(source / log.horizontal.table)
-        scanner = _on_one_clock(vertical, level, log.vertical, log.horizontal, notes)
+        scanner, told_of_clock = _on_one_clock(vertical, level, log.vertical, log.horizontal)
+        notes += told_of_clock
         found = find_path(folder, source, log, level, log.horizontal, seed, told)
         times, poses, path_from = found.times_s, found.poses, found.told
         origin, crs, doubts = found.origin_m, found.crs, found.doubts
         corrections = tuple((float(times[row]), move, why) for row, move, why in found.corrected)
         notes += [f"the path comes from {path_from}", *found.notes]
         if log.camera is not None:
-            poses = _leaning(source, log.camera, times, poses, notes)
+            poses, told_of_roll = _leaning(source, log.camera, times, poses)
+            notes.append(told_of_roll)
     else:
         fault = "names neither a [path] nor a [horizontal] scanner"
         raise InputError(folder / LOG, fault, "Give poses, or scans to find them from.")
-    sweeps = _sweeps(vertical, source / scanner.table, scanner, times, poses, spacing_m, notes)
+    sweeps, left_out = _sweeps(vertical, source / scanner.table, scanner, times, poses, spacing_m)
+    notes += left_out
     level_sweeps = _level_sweeps(source, log.horizontal, times, poses)
     shots: tuple[Shot, ...] = ()
     if log.camera is not None:
-        shots = shots_of(source, log.camera, times, poses, notes)
+        shots, missing = shots_of(source, log.camera, times, poses)
+        notes += missing
     height_m = float(scanner.vehicle_from_scanner[11])
     return DriveRecord(
         log.name, sweeps, shots, log.path is not None, height_m, False, crs, origin, tuple(notes),
@@ -124,28 +128,30 @@ def _leaning(
     camera: CameraMount,
     times: NDArray[np.float64],
     poses: NDArray[np.float64],
-    notes: list[str],
-) -> NDArray[np.float64]:
-    """Poses (p, 3, 4) with the roll that images tell; the same ones where they tell none."""
-    shots = shots_of(source, camera, times, poses, [])
+) -> tuple[NDArray[np.float64], str]:
+    """Poses (p, 3, 4) with the roll that images tell, and a note of it; where they tell none, the
+    same ones.
+    """
+    shots, _ = shots_of(source, camera, times, poses)
     ahead = poses_at(np.array([shot.time_s for shot in shots]), times, poses)[:, :3, 0]
     roll = find_roll(shots, ahead)
     if roll is None:
-        notes.append("too few images show upright edges: the vehicle is taken not to lean")
-        return poses
+        return poses, "too few images show upright edges: the vehicle is taken not to lean"
     typical = np.rad2deg(np.sqrt((roll.roll_rad**2).mean()))
     count = f"{len(roll.times_s)} of {roll.looked} images"
-    notes.append(f"roll comes from upright edges in {count}: {typical:.1f} degrees typically")
-    return roll.onto(times, poses)
+    note = f"roll comes from upright edges in {count}: {typical:.1f} degrees typically"
+    return roll.onto(times, poses), note
 
 
 def _on_one_clock(
-    vertical: SpooledScans, level: SpooledScans, scanner: Scanner, other: Scanner, notes: list[str]
-) -> Scanner:
-    """The vertical scanner with its clock set by the horizontal one's, where both share a beam."""
+    vertical: SpooledScans, level: SpooledScans, scanner: Scanner, other: Scanner
+) -> tuple[Scanner, list[str]]:
+    """The vertical scanner with its clock set by the horizontal one's, where both share a beam;
+    and a note where it was.
+    """
     beams = shared_beams(scanner, vertical.beams, other, level.beams)
     if beams is None:
-        return scanner
+        return scanner, []
     series = []
     for scans, own, beam in ((vertical, scanner, beams[0]), (level, other, beams[1])):
         rows = scans.order[:_CLOCK_SCANS].tolist()
@@ -153,12 +159,13 @@ def _on_one_clock(
         series.append((scans.times_s[rows] + own.clock_offset_s, ranges))
     apart = clock_apart(*series[0], *series[1])
     if apart is None or abs(apart) < _SAME_CLOCK_S:
-        return scanner
-    notes.append(
+        return scanner, []
+    note = (
         f"the clock of the vertical scanner is {1000 * abs(apart):.0f} ms"
         f" {'behind' if apart > 0.0 else 'ahead of'} that of the horizontal one: it was set"
     )
-    return scanner.model_copy(update={"clock_offset_s": scanner.clock_offset_s + apart})
+    offset = scanner.clock_offset_s + apart
+    return scanner.model_copy(update={"clock_offset_s": offset}), [note]
 
 
 def read_toml(path: Path) -> DriveLog:
@@ -185,7 +192,9 @@ def _level_sweeps(
     if scanner is None or not (source / scanner.table).is_file():
         return ()
     scans = SpooledScans(source / scanner.table)
-    return _sweeps(scans, source / scanner.table, scanner, times, poses, _LEVEL_SPACING_M, [])
+    table = source / scanner.table
+    sweeps, _ = _sweeps(scans, table, scanner, times, poses, _LEVEL_SPACING_M)
+    return sweeps
 
 
 def _sweeps(
@@ -195,8 +204,9 @@ def _sweeps(
     times: NDArray[np.float64],
     poses: NDArray[np.float64],
     spacing_m: float,
-    notes: list[str],
-) -> tuple[Sweep, ...]:
+) -> tuple[tuple[Sweep, ...], list[str]]:
+    """The scans within the times of the path, thinned; and notes of what is left out."""
+    notes: list[str] = []
     own = scans.times_s + scanner.clock_offset_s
     order = scans.order
     inside = (own[order] >= times[0]) & (own[order] <= times[-1])
@@ -216,10 +226,11 @@ def _sweeps(
         notes.append(f"{len(kept)} of {len(order)} vertical scans are used: {spacing_m} m apart")
     angles = scanner.first_beam_rad + np.arange(scans.beams) * scanner.beam_step_rad
     beams = np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
-    return tuple(
+    sweeps = tuple(
         Sweep(f"{row:06d}", float(own[row]), place, _reader(scans, row, beams, scanner))
         for row, place in zip(order[kept].tolist(), places[kept], strict=True)
     )
+    return sweeps, notes
 
 
 def _reader(

@@ -22,9 +22,8 @@ def shots_of(
     camera: CameraMount,
     times: NDArray[np.float64],
     poses: NDArray[np.float64],
-    notes: list[str],
-) -> tuple[Shot, ...]:
-    """Those whose files are there, with their places; what is missing goes into the notes.
+) -> tuple[tuple[Shot, ...], list[str]]:
+    """Those whose files are there, with their places; and notes of what is missing.
 
     times, poses: (p,) s and (p, 3, 4) world_from_vehicle. InputError names the table.
     """
@@ -45,9 +44,8 @@ def shots_of(
                 camera.focal_px, camera.centre_px, place,
             )
         )  # fmt: skip
-    if missing:
-        notes.append(f"{missing} of {len(own)} images are missing")
-    return tuple(shots)
+    notes = [f"{missing} of {len(own)} images are missing"] if missing else []
+    return tuple(shots), notes
 
 
 def file_beside(table: Path, name: str, what: str) -> Path:

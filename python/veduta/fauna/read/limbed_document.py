@@ -100,11 +100,12 @@ def described_limbs(
         feet=[limb.name for limb in figure.feet()],
         down=scaled.down.astype(int).tolist(),
     )
+    length, assumed = _length(plan.name, options)
     return LimbedAnimal(
-        name=name, kind=plan.name, source=source, length=_length(plan.name, options, doubts),
+        name=name, kind=plan.name, source=source, length=length,
         plan=scaled.plan, seen=_seen_from(seen, plan), shape="measured", widths="invented",
         shape_score=float(np.median(overlaps)), missing=list(seen.missing), gaits=gaits,
-        poses=poses, doubts=doubts,
+        poses=poses, doubts=[*doubts, *assumed],
     )  # fmt: skip
 
 
@@ -126,16 +127,17 @@ def _seen_from(seen: LimbedSeen, plan: BodyPlan) -> Literal["left", "right", "ab
     return "right" if seen.windows.faces > 0.0 else "left"
 
 
-def _length(kind: str, options: FaunaOptions, doubts: list[str]) -> Length:
+def _length(kind: str, options: FaunaOptions) -> tuple[Length, list[str]]:
+    """From rump to nose, and the doubt where it was assumed."""
     given = options.animal.length_m
     if given is not None:
-        return Length(metres=given, provenance="edited", score=1.0)
+        return Length(metres=given, provenance="edited", score=1.0), []
     assumed = USUAL_LIMBED_M.get(kind, _OTHER_M)
-    doubts.append(
+    doubt = (
         f"nothing in the footage tells how long the animal is: {assumed:g} m from rump to nose were"
         " assumed (--length-m)"
     )
-    return Length(metres=assumed, provenance="invented", score=0.0)
+    return Length(metres=assumed, provenance="invented", score=0.0), [doubt]
 
 
 def scaled_animal(seen: LimbedSeen, plan: BodyPlan, frame_s: float) -> Scaled:

@@ -87,16 +87,16 @@ def describe(
     states = coefficients(angles)
     again = axis_of(angles_of(states, SAMPLES))
     apart = np.linalg.norm(again - axis_of(angles), axis=2).mean()
-    doubts: list[str] = []
     kind = _kind(options)
-    length = _length(usual, lengths, tracked.unit, options, doubts)
-    speed, seen = _speed(tracked, usual, options, doubts)
+    length, of_length = _length(usual, lengths, tracked.unit, options)
+    speed, seen, of_speed = _speed(tracked, usual, options)
+    body, of_body = _body(tracked, usual, kind, second)
     animal = Animal(
         name=name,
         kind=kind,
         source=source.model_copy(update={"used": len(axes), "left_out": list(tracked.left_out)}),
         length=length,
-        body=_body(tracked, usual, kind, second, doubts),
+        body=body,
         motion=Motion(
             frame_s=tracked.frame_s,
             states=np.stack([states.real, states.imag], axis=-1).round(9).tolist(),
@@ -106,7 +106,7 @@ def describe(
             speed=speed,
             speed_provenance=seen,
         ),
-        doubts=doubts,
+        doubts=[*of_length, *of_speed, *of_body],
     )
     return Described(animal, tracked, axes / usual, angles, states)
 
@@ -153,48 +153,54 @@ def _head_first(tracked: Tracked) -> Tracked:
 
 
 def _length(
-    usual: float, lengths: Floats, unit: str, options: FaunaOptions, doubts: list[str]
-) -> Length:
+    usual: float, lengths: Floats, unit: str, options: FaunaOptions
+) -> tuple[Length, list[str]]:
+    """From head to tail, and the doubt where it was assumed."""
     spread = float(np.median(np.abs(lengths - usual))) / usual
     score = float(np.clip(1.0 - spread, 0.0, 1.0))
     given = options.animal.length_m
     if given is not None:
-        return Length(metres=given, provenance="edited", score=1.0)
+        return Length(metres=given, provenance="edited", score=1.0), []
     if unit == "m":
-        return Length(metres=usual, provenance="measured", score=score)
+        return Length(metres=usual, provenance="measured", score=score), []
     assumed = USUAL_LENGTH_M[_kind(options)]
-    doubts.append(
+    doubt = (
         f"nothing in the footage tells how long the animal is: {assumed:g} m was assumed"
         " (--length-m)"
     )
-    return Length(metres=assumed, provenance="invented", score=0.0)
+    return Length(metres=assumed, provenance="invented", score=0.0), [doubt]
 
 
 def _speed(
-    tracked: Tracked, usual: float, options: FaunaOptions, doubts: list[str]
-) -> tuple[float, Origin]:
-    """Body lengths a second: the way of the body's middle along its course, over the time."""
+    tracked: Tracked, usual: float, options: FaunaOptions
+) -> tuple[float, Origin, list[str]]:
+    """Body lengths a second: the way of the body's middle along its course, over the time; and the
+    doubt where it was assumed.
+    """
     if options.motion.speed is not None:
-        return options.motion.speed, "edited"
+        return options.motion.speed, "edited", []
     middle = tracked.points.mean(axis=1)
     seconds = float(tracked.frame[-1] - tracked.frame[0]) * tracked.frame_s
     span = max(1, len(middle) // 8)
     way = float(np.linalg.norm(middle[span:] - middle[:-span], axis=1).sum()) / span
     speed = way / seconds / usual
     if speed >= _SLOWEST:
-        return speed, "measured"
+        return speed, "measured", []
     assumed = _USUAL_SPEED[_kind(options)]
-    doubts.append(
+    doubt = (
         f"the animal stays in its place in the footage: {assumed:g} body lengths a second were"
         " assumed (--speed)"
     )
-    return assumed, "invented"
+    return assumed, "invented", [doubt]
 
 
 def _body(
-    tracked: Tracked, usual: float, kind: Limbless, second: SecondView | None, doubts: list[str]
-) -> Body:
-    """Elliptic slices: widths and heights as measured where they are, else by the kind's shape."""
+    tracked: Tracked, usual: float, kind: Limbless, second: SecondView | None
+) -> tuple[Body, list[str]]:
+    """Elliptic slices: widths and heights as measured where they are, else by the kind's shape;
+    and doubts of what was not.
+    """
+    doubts: list[str] = []
     slices = usual_slices(kind)
     places = np.array([piece.at for piece in slices])
     width = np.array([piece.half_width for piece in slices])
@@ -228,7 +234,7 @@ def _body(
         Slice(at=float(at), half_width=float(wide), half_height=float(high))
         for at, wide, high in zip(places, width, height, strict=True)
     ]
-    return Body(slices=found, widths=widths, heights=heights, score=score)
+    return Body(slices=found, widths=widths, heights=heights, score=score), doubts
 
 
 def _even(along: Floats | int) -> Floats:
