@@ -1,4 +1,7 @@
-"""Each verb, and what it leaves, where no name is UTF-8: of folders, of files, of OUT."""
+"""Each verb, and what it leaves, where no name is UTF-8: of folders, of files, of OUT.
+
+The same calls prove that no verb looks up a host: all ways to the network are trapped meanwhile.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +20,7 @@ from photo_scene import write_photos
 from PIL import Image
 from rows_of_houses import write_row
 from stereo_scene import write_set
+from trapped_names import compiled_trap, looked_up, trapped_environment
 
 from veduta.cli.main import main
 from veduta.synthetic.drives import StreetOptions, TruckOptions, build_street, scan_street
@@ -99,15 +103,28 @@ CALLS: dict[str, Callable[[Path, Path], list[object]]] = {
 }  # fmt: skip
 
 
+@pytest.fixture(scope="module")
+def trap(tmp_path_factory: pytest.TempPathFactory) -> Path | None:
+    return compiled_trap(tmp_path_factory.mktemp("trap"))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("verb", CALLS)
-def test_a_verb_reads_and_writes_such_names(verb: str, photo: Path, tmp_path: Path) -> None:
+def test_a_verb_reads_and_writes_such_names(
+    verb: str, photo: Path, tmp_path: Path, trap: Path | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = tmp_path / f"in{BAD}"
     folder.mkdir()
     words = [str(word) for word in CALLS[verb](folder, photo)]
     out = tmp_path / f"new{BAD}" / f"out{BAD}"
-    done = veduta(*words, "-o", out)
+    with monkeypatch.context() as patch:
+        if trap is not None:
+            for name, value in trapped_environment(trap, tmp_path).items():
+                patch.setenv(name, value)
+            patch.delenv("ORT_DISABLE_TELEMETRY", raising=False)
+        done = veduta(*words, "-o", out)
     assert done.returncode == 0, done.stderr
+    assert trap is None or looked_up(tmp_path) == ""
     assert os.fsencode(out).endswith(b"new\xe9/out\xe9")
     assert r"new\xe9/out\xe9'" in done.stdout
     assert "veduta-names" not in done.stdout + done.stderr
