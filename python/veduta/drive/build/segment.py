@@ -36,7 +36,7 @@ class PlanesParameters:
     """
 
     nearest_m: float = 1.0
-    lowest_deg: float = -89.0
+    lowest_deg: float = -89.8
     highest_deg: float = 72.0
 
 
