@@ -65,3 +65,20 @@ def moved(points: NDArray[np.float64], own: int, wanted: int) -> NDArray[np.floa
     between = pyproj.Transformer.from_crs(own, wanted, always_xy=True)
     x, y = between.transform(points[:, 0], points[:, 1])
     return np.column_stack([x, y]).astype(np.float64)
+
+
+def horizontal(name: str) -> pyproj.CRS:
+    """A system without its heights; pyproj's CRSError where there is none of the name."""
+    known = pyproj.CRS.from_user_input(name)
+    return known.sub_crs_list[0] if known.is_compound else known.to_2d()
+
+
+def way_between(own: str, wanted: str) -> pyproj.Transformer | None:
+    """East and north of one system in another, no ballpark; None where they are one.
+
+    pyproj's ProjError where there is no known way.
+    """
+    source, target = horizontal(own), horizontal(wanted)
+    if source.equals(target, ignore_axis_order=True):
+        return None
+    return pyproj.Transformer.from_crs(source, target, always_xy=True, allow_ballpark=False)

@@ -13,6 +13,7 @@ from veduta.cameras import CameraSet
 from veduta.dense.document import CityMesh
 from veduta.formats.building_faces import BuildingFaces, CityFile, Rings
 from veduta.formats.cityjson_read import read_cityjson
+from veduta.geometry.crs import way_between
 from veduta.place.semantics import SemanticClass
 from veduta.run.errors import InputError
 
@@ -71,20 +72,13 @@ def _way(path: Path, file: CityFile, crs: str) -> tuple[pyproj.Transformer | Non
         return None, [f"{path.name} names no coordinate system: it is taken for that of the photos"]
     own = f"EPSG:{file.epsg}"
     try:
-        source, target = _flat(own), _flat(crs)
-        if source.equals(target, ignore_axis_order=True):
-            return None, []
-        found = pyproj.Transformer.from_crs(source, target, always_xy=True, allow_ballpark=False)
+        found = way_between(own, crs)
     except pyproj.exceptions.ProjError as error:
         fault = f"is in {own}, which cannot be converted to the photos' {crs}"
         raise InputError(path, fault, "Convert it before.") from error
+    if found is None:
+        return None, []
     return found, [f"the model was converted from {own} to {crs}; its heights stay as they are"]
-
-
-def _flat(name: str) -> pyproj.CRS:
-    """A system without its heights."""
-    known = pyproj.CRS.from_user_input(name)
-    return known.sub_crs_list[0] if known.is_compound else known
 
 
 def _moved(ring: Vertices, way: pyproj.Transformer | None) -> Vertices:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pyproj import CRS, Transformer
+from pyproj import Transformer
 from pyproj.exceptions import CRSError
 from scipy import ndimage
 
@@ -23,6 +23,7 @@ from veduta.drive.read.scan_chain import ScanChain, chain_scans
 from veduta.drive.read.spool import SpooledScans
 from veduta.drive.read.surface_model import SurfaceModel, read_surface_model
 from veduta.drive.read.tables import read_table, time_column
+from veduta.geometry.crs import horizontal
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.names import real_path
 
@@ -200,7 +201,7 @@ def _crs(log: DriveLog, model: SurfaceModel, path: Path) -> str | None:
     if log.crs is None or model.crs is None:
         return log.crs or model.crs
     try:
-        same = CRS.from_user_input(log.crs).to_2d().equals(CRS.from_user_input(model.crs).to_2d())
+        same = horizontal(log.crs).equals(horizontal(model.crs))
     except CRSError as error:
         raise InputError(path, f"{log.crs}: no such CRS", "Write it as EPSG:number.") from error
     if not same:

@@ -9,7 +9,7 @@ import numpy as np
 import pyproj
 from numpy.typing import NDArray
 
-from veduta.geometry.crs import epsg_named
+from veduta.geometry.crs import epsg_named, horizontal
 from veduta.geometry.ecef import grid_of_crs
 from veduta.geometry.utm import epsg_of, zone_of
 from veduta.run.errors import InputError
@@ -69,11 +69,9 @@ def metres_of(subject: str | Path, crs: str, sample: NDArray[np.float64]) -> Met
     if grid_of_crs(crs) is not None and not _stretches(crs, sample):
         return Metres(crs, None, ())
     try:
-        known = pyproj.CRS.from_user_input(crs)
-        if known.is_compound:
-            known = known.sub_crs_list[0]
-        if known.is_geocentric:
+        if pyproj.CRS.from_user_input(crs).is_geocentric:
             raise _unusable(subject, crs)
+        known = horizontal(crs)
         to_world = pyproj.Transformer.from_crs(known, _WORLD, always_xy=True, allow_ballpark=False)
     except pyproj.exceptions.ProjError as error:
         raise _unusable(subject, crs) from error
@@ -91,8 +89,7 @@ def _stretches(crs: str, sample: NDArray[np.float64]) -> bool:
     """Whether a metre of the CRS is far from one on the ground: at 52 degrees a metre of the web's
     Mercator is 0.6 m.
     """
-    known = pyproj.CRS.from_user_input(crs)
-    plane = pyproj.Proj(known.sub_crs_list[0] if known.is_compound else known)
+    plane = pyproj.Proj(horizontal(crs))
     east, north = np.median(sample[:, :2], axis=0).tolist()
     longitude, latitude = plane(east, north, inverse=True)
     if not np.isfinite([longitude, latitude]).all():

@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
+from veduta.geometry.arcs import Arc
 from veduta.synthetic.plans.house import Point, Wall
 
 STEP_RAD = 0.04
+_UP = np.array([1.0, -1.0])
 Line = NDArray[np.float64]
 
 
 def length(start: Point, end: Point, bulge: float) -> float:
     """How long the piece is along its centre line, in metres."""
-    chord = math.dist(start, end)
-    angle = 4.0 * math.atan(abs(bulge))
-    return chord if angle < 1e-9 else chord * angle / (2.0 * math.sin(angle / 2.0))
+    return _arc(start, end, bulge).length_px
 
 
 def wall_length(wall: Wall) -> float:
@@ -34,19 +34,13 @@ def at(
     The arc's angle is 4 atan(bulge) and its sagitta chord * bulge / 2, to the right of the chord
     where the bulge is positive (y up).
     """
-    a, b = np.asarray(start, float), np.asarray(end, float)
-    chord = b - a
-    size = float(np.hypot(*chord))
-    along = chord / max(size, 1e-12)
-    left = np.array([-along[1], along[0]])
-    if abs(bulge) < 1e-9:
-        return np.asarray(a + shares[:, None] * chord + offset * left)
-    angle = 4.0 * math.atan(bulge)
-    radius = size / (2.0 * math.sin(angle / 2.0))
-    centre = (a + b) / 2.0 + left * radius * math.cos(angle / 2.0)
-    turn = -angle / 2.0 + shares * angle
-    outward = -left[None] * np.cos(turn)[:, None] + along[None] * np.sin(turn)[:, None]
-    return np.asarray(centre + (radius - offset) * outward)
+    arc = _arc(start, end, bulge)
+    return np.asarray(arc.at(shares * arc.length_px, -offset) * _UP)
+
+
+def _arc(start: Point, end: Point, bulge: float) -> Arc:
+    """The same line with y down, as `Arc` has it; in metres, where it says pixels."""
+    return Arc(np.asarray(start, float) * _UP, np.asarray(end, float) * _UP, bulge)
 
 
 def line(wall: Wall, low: float = 0.0, high: float = 1.0, offset: float = 0.0) -> Line:
