@@ -208,6 +208,8 @@ def _wide_runs(glass: Mask, storey: float, p: GlassParameters) -> Mask:
 def _floors(chance: Float, wide: Mask, storey: float) -> list[Span]:
     """Rows from and to of the panes of each floor, by what each storey has at the same height."""
     columns = wide.mean(axis=0) > 0.2
+    if not columns.any():
+        return []
     profile = chance[:, columns].mean(axis=1).astype(np.float64)
     rows = np.flatnonzero(wide.mean(axis=1) > 0.25 * wide.mean(axis=1).max())
     turn = np.arange(rows[0], rows[-1] + 1)

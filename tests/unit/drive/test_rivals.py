@@ -98,3 +98,13 @@ def test_off_the_map_nothing_fits() -> None:
 def test_a_path_that_fits_nowhere_has_no_share(own: float, rival: float, share: float) -> None:
     """Beams through what stands make a fit less than 0: no margin, however bad its rivals are."""
     assert Margin(own, rival, (8.0, 0.0)).share == pytest.approx(share)
+
+
+def test_fine_cells_ask_for_no_better_path() -> None:
+    """A wall in its own model, the path 0.2 m beside itself: right, whatever the cells are."""
+    points = np.column_stack([np.linspace(-4.0, 4.0, 200), np.full(200, 0.2)])
+    for cell_m in (0.05, 0.1, 0.5):
+        side = int(10.0 / cell_m)
+        distance = np.abs((np.arange(side) + 0.5) * cell_m - 5.0)[:, None].repeat(side, axis=1)
+        model = SurfaceModel(distance.astype(np.float32), (-5.0, -5.0), cell_m, None, 1, None, 0.1)
+        assert sharpness_of(np.zeros((1, 3)), [points], model) > 0.45

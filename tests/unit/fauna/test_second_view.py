@@ -15,7 +15,7 @@ from veduta.fauna.options import FaunaOptions
 from veduta.fauna.read.second_silhouettes import SilhouettePictures, read_second_view
 from veduta.fauna.read.second_view import SecondLooks, SecondView, rounded, thickness
 from veduta.fauna.read.tracked import Tracked, describe
-from veduta.run.errors import InputError
+from veduta.run.errors import InputError, NotFoundError
 
 SOURCE = Source(file="a.avi", sha256="", frames=8, used=8)
 ALONG = np.linspace(0.0, 1.0, 101)
@@ -70,15 +70,16 @@ def test_the_document_has_them_as_measured() -> None:
         assert piece.half_height == pytest.approx(np.interp(piece.at, ALONG, HIGH), rel=0.12)
 
 
+@pytest.mark.parametrize("kind", ["quadruped", "lizard"])
 @pytest.mark.parametrize("wide", [0.5, 1.3])
 @pytest.mark.parametrize("turned", [False, True])
-def test_how_wide_a_quadruped_is(wide: float, turned: bool) -> None:
-    """Seen from above: its trunk with a head, legs that stand off, and a tail."""
-    plan = load_plan("quadruped")
+def test_how_wide_one_with_legs_is(kind: str, wide: float, turned: bool) -> None:
+    """Seen from the other side: its trunk with a head, a leg that stands off, and a tail."""
+    plan = load_plan(kind)
     body = plan.parts[0]
     scale, margin = 400.0, 60
     low = min(point[0] for part in plan.parts for point in part.points) - 0.05
-    mask = np.zeros((400, int(1.4 * scale) + 2 * margin), np.uint8)
+    mask = np.zeros((400, int((1.2 - low) * scale) + 2 * margin), np.uint8)
 
     def disc(forward: float, aside: float, radius: float) -> None:
         centre = (round(margin + scale * (forward - low)), round(200 + scale * aside))
@@ -92,14 +93,21 @@ def test_how_wide_a_quadruped_is(wide: float, turned: bool) -> None:
             chain = np.array([part.start, *part.points])
             for share in np.linspace(0.0, len(chain) - 1.0, 80):
                 disc(float(np.interp(share, np.arange(len(chain)), chain[:, 0])), 0.0, 0.012)
-    for side in (-1.0, 1.0):
-        for forward in np.linspace(0.44, 0.5, 10):
-            disc(forward, side * 0.16, 0.015)
+    for forward in np.linspace(0.44, 0.5, 10):
+        disc(forward, 0.16, 0.015)
+        disc(forward, -0.16, 0.015)
     seen = mask[:, ::-1] if turned else mask
     found, across = rounded(plan, SecondView((seen > 0,), "above.png"), SecondLooks())
     assert found.parts[0].round == pytest.approx(wide, rel=0.12)
     assert found.parts[1:] == plan.parts[1:]
     assert across.is_sure
+
+
+def test_what_is_nowhere_as_thick_as_a_body_is_none() -> None:
+    mask = np.zeros((60, 400), np.bool_)
+    mask[30, 20:380] = True
+    with pytest.raises(NotFoundError, match="what line shows"):
+        rounded(load_plan("lizard"), SecondView((mask,), "line"), SecondLooks())
 
 
 def test_pictures_that_are_none(tmp_path: Path) -> None:

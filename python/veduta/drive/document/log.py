@@ -101,7 +101,8 @@ class Surface(_Record):
     )
     sure: bool = Field(
         default=False,
-        description="model and start are right: a path that fits elsewhere, too, is not refused",
+        description="model and start are right: a path that fits elsewhere as well, or lies about"
+        " edges and not on them, is not refused",
     )
 
 

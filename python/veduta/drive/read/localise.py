@@ -28,6 +28,7 @@ _NEXT_SEED = 7919
 """Between the seeds of two tries."""
 _WHAT = "the place of the drive in the surface model"
 _REMEDY = "Give the model of the place of the drive, and a start nearer to where it began."
+_SURE = "Where both are sure: `sure = true`."
 
 
 @dataclass(frozen=True)
@@ -270,13 +271,13 @@ def _must_be_here(margin: Margin, sharp: float, chosen: LocaliseParameters) -> N
             f"{100 * sharp:.0f} % of the points near its edges lie on them, less than"
             f" {100 * chosen.least_sharp:.0f} % (33 % do by chance)"
         )
-        raise NotFoundError(_WHAT, evidence, _REMEDY)
+        raise NotFoundError(_WHAT, evidence, f"{_REMEDY} {_SURE}")
     if margin.share < chosen.least_margin:
         metres = float(np.hypot(*margin.away))
         evidence = (
             f"the path fits it as well {metres:.0f} m away, or beams go through what stands there"
         )
-        raise NotFoundError(_WHAT, evidence, f"{_REMEDY} Where both are sure: `sure = true`.")
+        raise NotFoundError(_WHAT, evidence, f"{_REMEDY} {_SURE}")
 
 
 def _placed(chain: Floats, poses: Floats, sure: NDArray[np.bool_]) -> Floats:

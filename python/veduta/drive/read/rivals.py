@@ -25,7 +25,8 @@ class RivalParameters:
     about edges by `sharp_m`: streets are alike but for decimetres by which their fronts step.
     turns_rad: headings that are tried. scans, points: so many are laid onto the model. passed_at:
     part of a beam's way at which nothing may stand. near, wide: deviations, in cells of the model's
-    edges, by which the sharpness of a path is told.
+    edges, by which the sharpness of a path is told; cells finer than `finest_m` count as that
+    large, as no path is known better.
     """
 
     sigma_m: float = 0.6
@@ -42,6 +43,7 @@ class RivalParameters:
     near: float = 0.8
     wide: float = 2.4
     passed_at: float = 0.75
+    finest_m: float = 0.25
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,8 @@ def sharpness_of(
     in a model of another place; 1 where all do. 0 where none is near one.
     """
     chosen = parameters or RivalParameters()
-    off = _distances(laid_scans(poses, scans, 1.0, chosen), model) / model.cell_m
+    cell_m = max(model.cell_m, chosen.finest_m)
+    off = _distances(laid_scans(poses, scans, 1.0, chosen), model) / cell_m
     near, wide = (
         float(np.exp(-0.5 * (off / width) ** 2).sum()) for width in (chosen.near, chosen.wide)
     )

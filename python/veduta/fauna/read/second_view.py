@@ -96,17 +96,25 @@ def rounded(plan: BodyPlan, view: SecondView, looks: SecondLooks) -> tuple[BodyP
             wide = _across(mask, looks, (places - low) / (high - low), turned) * (high - low)
             ratio = wide / own
             middle = float(np.median(ratio))
-            fits.append((float(np.median(np.abs(ratio - middle))) / middle, middle, turned, wide))
-    ways = np.array([fit[0] for fit in fits]).reshape(-1, 2)
-    best = int(ways.mean(axis=0).argmin())
+            # Laid the wrong way round the body may lie where there is but a tail.
+            spread = float(np.median(np.abs(ratio - middle))) / middle if middle > 0.0 else np.inf
+            fits.append((spread, middle, turned, wide))
+    ways = np.median(np.array([fit[0] for fit in fits]).reshape(-1, 2), axis=0)
+    if not np.isfinite(ways).any():
+        raise NotFoundError(
+            "the animal's body in the second view",
+            f"what {view.name} shows is nowhere as thick as a body",
+            "Give a silhouette of the whole animal from the other side.",
+        )
+    best = int(ways.argmin())
     chosen = [fit for fit in fits if fit[2] == bool(best)]
     ratio = float(
         np.clip(np.median([fit[1] for fit in chosen]), 1 / looks.roundest, looks.roundest)
     )
     parts = (body.model_copy(update={"round": round(ratio, 4)}), *plan.parts[1:])
-    apart = float(abs(ways.mean(axis=0)[0] - ways.mean(axis=0)[1]))
+    apart = float(ways[1 - best] - ways[best])
     half = np.median([fit[3][::-1] for fit in chosen], axis=0)
-    score = float(np.clip(1.0 - ways[:, best].mean(), 0.0, 1.0))
+    score = float(np.clip(1.0 - ways[best], 0.0, 1.0))
     found = Across(np.asarray(half), score, apart >= looks.sure)
     return plan.model_copy(update={"parts": list(parts)}), found
 
@@ -149,6 +157,8 @@ def _across(mask: Mask, looks: SecondLooks, shares: Floats, turned: bool) -> Flo
     turn[:, 2] += 0.5 * side - middle
     upright = np.asarray(cv2.warpAffine(mask.astype(np.uint8), turn, (side, side))) > 0
     columns = np.flatnonzero(upright.any(axis=0))
+    if not len(columns):
+        return np.zeros(len(shares))  # thinner than a pixel
     first, last = int(columns[0]), int(columns[-1]) + 1
     reach = float(cv2.distanceTransform(upright.astype(np.uint8), cv2.DIST_L2, 5).max())
     size = 2 * max(1, round(looks.limbs * reach)) + 1
