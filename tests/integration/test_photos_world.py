@@ -68,7 +68,7 @@ def test_references_that_cannot_be_used(tmp_path: Path, scene: Path) -> None:
     model.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
     for arguments, told in (
         (("--model", model), "Add --crs with its EPSG code"),
-        (("--model", tmp_path / "missing.gml"), "missing.gml: cannot be read"),
+        (("--model", tmp_path / "missing.gml"), "missing.gml: does not exist"),
         (("--georef", "gcp"), "Add --gcp FILE"),
         (("--crs", "EPSG:25832"), "Give --model, too"),
     ):

@@ -77,8 +77,8 @@ def test_it_is_told_whose_numbers_are_told(out: Path, photos: list[Path]) -> Non
     before = facade(*photos[:2], "-o", out).stdout.splitlines()
     assert f" {windows} windows" in before[0]
     assert before[0].endswith(" (was done, before facade.json was changed)")
-    assert before[1].startswith("house1: ")
-    assert before[1].endswith(" (was done)")
+    (other,) = (line for line in before if line.startswith("house1: "))
+    assert other.endswith(" (was done)")
     assert f"{document}: was edited and is left as it is{command}" in before
 
     assert veduta("facade", document, "-o", out).returncode == 0
@@ -123,7 +123,9 @@ def test_what_does_not_fit_the_model_is_told(out: Path, tmp_path: Path) -> None:
     edit(document, twice)
     done = veduta("facade", document, "-o", tmp_path / "new")
     page = tmp_path / "new" / "house0" / "report.html"
-    assert f"1 element left out of the model: {page}\n" in done.stdout
+    (line,) = (one for one in done.stdout.splitlines() if "element" in one)
+    assert line.strip().startswith("1 element left out")
+    assert line.endswith(f": {page}")
     assert "left out, no room" in page.read_text()
     assert read_json(page.with_suffix(".json"))["measures"]["left_out"] == 1
 
