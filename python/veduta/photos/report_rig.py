@@ -37,6 +37,11 @@ def rig_alarms(rig: RigTold | None) -> list[str]:
     """What has to be said at the terminal."""
     if rig is None:
         return []
+    if len(rig.cameras) < 2:
+        return [
+            f"only of {''.join(rig.cameras) or 'none'} of the rig's cameras there are photos that"
+            " can be used, so there is no rig: each photo is placed for itself"
+        ]
     if rig.poses is None:
         return [
             "nothing tells how the cameras of the rig are fixed to each other, as fewer than"

@@ -20,7 +20,7 @@ from veduta.run.digests import result_key
 from veduta.run.outputs import writing_to
 from veduta.run.record import PRIVATE
 
-VERSION = "15"
+VERSION = "16"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = "photos"
 FOLDER = f"{PRIVATE}/photos"

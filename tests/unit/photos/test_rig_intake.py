@@ -14,8 +14,10 @@ from veduta.photos.idle_options import require_effect
 from veduta.photos.intake.call import plan_call
 from veduta.photos.intake.given import NOTHING_ELSE, Given
 from veduta.photos.intake.read import read_photos
+from veduta.photos.mapping.rigs import RigTold, cameras_of, given_poses
 from veduta.photos.matching.pairs import choose_pairs
 from veduta.photos.options import CameraOptions, MatchOptions, PhotosOptions
+from veduta.photos.report_rig import rig_alarms
 from veduta.run.errors import InputError
 
 
@@ -97,6 +99,40 @@ def test_a_photo_of_another_size_is_set_aside(tmp_path: Path) -> None:
     assert read.set_aside == (
         ("left/c.png", "has 90 x 70 px, and the first photo of its camera 80 x 70"),
     )
+
+
+def test_frames_that_show_one_blank_wall_are_no_copies(tmp_path: Path) -> None:
+    for number, name in enumerate(("left/a.png", "left/b.png", "right/a.png", "right/b.png")):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        pixels = np.full((70, 80, 3), 120, dtype=np.uint8)
+        pixels[0, number] = 125
+        Image.fromarray(pixels).save(tmp_path / name)
+    read = read_photos(plan_call(tmp_path, rig=True).sources)
+    assert len(read.photos) == 4
+    assert read.set_aside == ()
+
+
+def test_a_file_tells_of_cameras_with_photos_alone(tmp_path: Path) -> None:
+    """All photos of the camera up are set aside, as they cannot be read."""
+    write(tmp_path, "left/a.png", "left/b.png", "right/a.png", "right/b.png")
+    (tmp_path / "up").mkdir()
+    (tmp_path / "up" / "a.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    told = {"cam_from_rig_rotation": [1, 0, 0, 0], "cam_from_rig_translation": [0, 1, 0]}
+    cameras = [{"image_prefix": f"{name}/", **told} for name in ("right", "up")]
+    cameras.append({"image_prefix": "left/", "ref_sensor": True})
+    (tmp_path / "rig.json").write_text(json.dumps([{"cameras": cameras}]))
+    call = plan_call(tmp_path, rig=True)
+    photos = read_photos(call.sources).photos
+    assert call.rig is not None
+    assert set(call.rig.cam_from_rig) == {"left", "right", "up"}
+    poses = given_poses(call.rig, photos)
+    assert poses is not None
+    assert set(poses.cam_from_rig) == set(cameras_of(photos)) == {"left", "right"}
+    alone = given_poses(call.rig, [photo for photo in photos if photo.group == 1])
+    assert alone is not None
+    assert set(alone.cam_from_rig) == {"left"}
+    (alarm,) = rig_alarms(RigTold(None, 2, 2, ("left",)))
+    assert "only of left of the rig's cameras" in alarm
 
 
 def config(**right: object) -> str:

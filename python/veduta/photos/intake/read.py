@@ -92,7 +92,8 @@ def read_photos(sources: Sequence[Source], progress: StepProgress = no_progress)
         if reason:
             set_aside.append((source.name, reason))
             continue
-        same = pictures.same_as(photo)
+        # Frames of a rig that show one blank wall are no copies of each other.
+        same = None if source.mount is not None else pictures.same_as(photo)
         if same is None:
             found.append((number, _record(source, photo)))
             pictures.add(photo)

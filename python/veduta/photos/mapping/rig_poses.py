@@ -42,7 +42,11 @@ class RigPoses:
 
 
 def found_poses(structure: Structure, photos: Sequence[PhotoRecord]) -> RigPoses:
-    """Of the cameras that frames of a component tie to each other; its unit of length is theirs."""
+    """Of the cameras that frames of a component tie to each other; its unit of length is theirs.
+
+    Cameras that are placed as often, and pairs with as many frames, go by the names of their
+    folders: where those are renamed, another camera may be the one that the others hang on.
+    """
     placed = _placed(structure, photos)
     first = max(placed, key=lambda camera: (len(placed[camera]), camera))
     known: dict[str, Floats] = {first: np.eye(3, 4)}

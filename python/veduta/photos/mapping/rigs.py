@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.intake.rig import RigFile
 from veduta.photos.mapping.growing import RigKind
 from veduta.photos.mapping.rig_database import write_rig_database
 from veduta.photos.mapping.rig_poses import RigPoses, found_poses
@@ -25,12 +26,14 @@ from veduta.run.progress import StepProgress
 class RigTold:
     """What is known of the rig. poses: None where the photos tell nothing of it.
 
-    alone, together: photos placed without the rig, and with it.
+    alone, together: photos placed without the rig, and with it. cameras: those of which there are
+    photos that can be used; of fewer than two no rig is made.
     """
 
     poses: RigPoses | None
     alone: int
     together: int
+    cameras: tuple[str, ...]
 
     @property
     def held(self) -> bool:
@@ -38,11 +41,16 @@ class RigTold:
         return self.poses is not None and self.poses.held
 
 
-def given_poses(stages: Stages) -> RigPoses | None:
-    """What the file of the call says."""
-    if stages.call.rig is None:
+def cameras_of(photos: Sequence[PhotoRecord]) -> tuple[str, ...]:
+    """The rig's cameras that photos were taken with, by name."""
+    return tuple(sorted({photo.mount.camera for photo in photos if photo.mount is not None}))
+
+
+def given_poses(file: RigFile | None, photos: Sequence[PhotoRecord]) -> RigPoses | None:
+    """What the file of the call says of cameras with photos; of one all may be set aside."""
+    if file is None:
         return None
-    poses = stages.call.rig.cam_from_rig
+    poses = {name: file.cam_from_rig[name] for name in cameras_of(photos)}
     return RigPoses(poses, held=True, frames=dict.fromkeys(poses, 0))
 
 
@@ -59,13 +67,13 @@ def mapped_with_rig(
     """
     if not options.camera.rig:
         return alone, None
-    before = _placed(alone)
-    poses = given_poses(stages)
+    before, cameras = _placed(alone), cameras_of(photos)
+    poses = given_poses(stages.call.rig, photos)
     if poses is None and alone.mapped.models:
         names = {photo.image_id: photo.name for photo in photos}
         poses = found_poses(structure_of(alone.mapped.models[0], names), photos)
     if poses is None or len(poses.cam_from_rig) < 2:
-        return alone, RigTold(None, before, before)
+        return alone, RigTold(None, before, before, cameras)
     kind: RigKind = "held" if poses.held else "adjusted"
     database = stages.rig_database()
     with writing_to(stages.out):
@@ -76,7 +84,7 @@ def mapped_with_rig(
         seed = options.random.seed
         # Also with the pairs that were doubted: a map that knows the rig is the better witness.
         together = map_settled(database, work, ids, seed, progress, "incremental", kind)
-    return together, RigTold(poses, before, _placed(together))
+    return together, RigTold(poses, before, _placed(together), cameras)
 
 
 def _placed(settled: Settled) -> int:
