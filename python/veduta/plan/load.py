@@ -230,6 +230,10 @@ def _wall_faults(wall: Wall, length_m: float, place: str, index: int) -> list[st
         found.append(f"{at}.thickness_m: {wall.thickness_m:g} m, less than {_SHORTEST_M:g}")
     if abs(wall.bulge) > MAX_BULGE:
         found.append(f"{at}.bulge: {wall.bulge:g}, more than {MAX_BULGE:g} (half a circle)")
+    if wall.party and not wall.outer:
+        found.append(
+            f"{at}.party: wall {wall.id!r} is an inner one; only outer ones are to neighbours"
+        )
     return found
 
 

@@ -33,6 +33,16 @@ _MID = re.compile(
     r"|(?:casa|vivienda)\s+adosada|maison\s+mitoyenne|murs?\s+mitoyens?|brandwand)\b",
     re.IGNORECASE,
 )
+_NOT_AFTER = re.compile(
+    r"\b(?:roof|garden|sun|patio|pool|deck|balcony|dach|garten)[\s-]*$", re.IGNORECASE
+)
+"""What makes of the next word a terrace to sit on."""
+_NOT_BEFORE = re.compile(
+    r"^[\s-]*(?:(?:single|double|triple)[\s-]+)?"
+    r"(?:garages?|car[\s-]?ports?|outbuilding|shed|store|office|studio|cinema|gym)\b",
+    re.IGNORECASE,
+)
+"""And of the last words another thing than a house."""
 
 
 @dataclass(frozen=True)
@@ -76,9 +86,17 @@ def terrace_named(texts: Iterable[Text]) -> tuple[Kind, str] | None:
     sure = [one.text for one in texts if one.score >= _SURE]
     for kind, words in (("end", _END), ("mid", _MID)):
         for text in sure:
-            if words.search(text):
+            if _says(words, text):
                 return ("end" if kind == "end" else "mid"), text
     return None
+
+
+def _says(words: re.Pattern[str], text: str) -> bool:
+    """Whether a text has these words, and they are of a house there."""
+    return any(
+        not _NOT_AFTER.search(text[: found.start()]) and not _NOT_BEFORE.match(text[found.end() :])
+        for found in words.finditer(text)
+    )
 
 
 def with_terrace(document: PlanDocument, options: HouseOptions, *, by_text: bool) -> PlanDocument:
@@ -125,7 +143,7 @@ def _decided(
         return (), ""
     if said is not None:
         return party_rows(sides, said[0], closed=False), f"{said[1]!r} is on the sheet"
-    rows = thick_rows(sides[0])
+    rows = thick_rows(sides)
     return rows, _THICK if rows else ""
 
 
@@ -143,8 +161,8 @@ def _doubts(sides: Sequence[Sequence[Side]], rows: Sequence[int], why: str) -> l
     if closed:
         doubts.append(
             f"closed in party walls at the {names} of the page: {', '.join(closed)}. If there are"
-            " windows, it is no party wall: give the plan without --terraced, and set party of that"
-            " wall in plan.json."
+            " windows, no neighbour is there: give the plan without --terraced, and set party of"
+            " the walls to neighbours in plan.json."
         )
     return doubts
 
@@ -237,17 +255,24 @@ def party_rows(
     return min(found, key=order, default=())
 
 
-def thick_rows(sides: Sequence[Side], rules: TerraceRules = RULES) -> tuple[int, ...]:
-    """Two sides across from each other that are blank, whole, and drawn much thicker; else none."""
+def thick_rows(sides: Sequence[Sequence[Side]], rules: TerraceRules = RULES) -> tuple[int, ...]:
+    """Two sides across from each other that are whole and drawn much thicker on the lowest storey,
+    and blank on all; else none. sides: of each storey.
+    """
+    lowest = sides[0]
     for row in range(2):
-        pair = [sides[row], sides[row + 2]]
-        others = [sides[row + 1].thickness_m, sides[(row + 3) % 4].thickness_m]
+        pair = [lowest[row], lowest[row + 2]]
+        others = [lowest[row + 1].thickness_m, lowest[(row + 3) % 4].thickness_m]
         usual = max(others)
-        if usual > 0.0 and all(
-            not side.openings
-            and side.share >= rules.long_share
-            and side.thickness_m >= max(rules.thick_m, rules.thicker * usual)
-            for side in pair
+        blank = not any(storey[own].openings for storey in sides for own in (row, row + 2))
+        if (
+            blank
+            and usual > 0.0
+            and all(
+                side.share >= rules.long_share
+                and side.thickness_m >= max(rules.thick_m, rules.thicker * usual)
+                for side in pair
+            )
         ):
             return (row, row + 2)
     return ()

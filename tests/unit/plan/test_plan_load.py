@@ -84,6 +84,7 @@ def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
         (["walls", 1, "id"], "south-1", "storeys[0].walls[1].id: 'south-1' is there twice"),
         (["walls", 1, "end"], "b", "storeys[0].walls[1]: its junctions lie on each other"),
         (["walls", 0, "bulge"], 3.0, "storeys[0].walls[0].bulge: 3, more than 1"),
+        (["walls", 6, "party"], True, "storeys[0].walls[6].party: wall 'middle' is an inner one"),
         (["openings", 0, "wall"], "x", "storeys[0].openings[0].wall: there is no 'x'"),
         (["openings", 0, "width_m"], 9.0, "storeys[0].openings[0]: ends at 9.60 m"),
         (["openings", 2, "height_m"], 0.0, "storeys[0].openings[2].height_m: must be above zero"),

@@ -10,9 +10,10 @@ from veduta.place.semantics import Provenance
 from veduta.plan.document import PlanDocument, Text
 from veduta.plan.house.build import build_house
 from veduta.plan.house.neighbours import build_neighbours
+from veduta.plan.house.party import Party, parties_of
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.cityjson import house_cityjson
-from veduta.plan.surroundings.terrain import terrain_of
+from veduta.plan.surroundings.terrain import own_plot, terrain_of
 from veduta.plan.terrace import terrace_named, terrace_options, with_terrace
 
 ASKED = HouseOptions(terraced=True, neighbours=True)
@@ -41,6 +42,8 @@ def party(document: PlanDocument) -> set[str]:
         ("Reihenmittelhaus", "mid"),
         ("tussenwoning", "mid"),
         ("End of Terrace", "end"),
+        ("Roof terrace, terraced house", "mid"),
+        ("Semi-detached house with garage", "end"),
         ("Semi-Detached", "end"),
         ("Doppelhaushälfte", "end"),
     ],
@@ -49,7 +52,20 @@ def test_what_a_sheet_calls_a_house_in_a_row(text: str, kind: str) -> None:
     assert terrace_named([written(text)]) == (kind, text)
 
 
-@pytest.mark.parametrize("text", ["Terrace", "Roof terrace 12 m2", "Terrasse", "Party room"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Terrace",
+        "Roof terrace 12 m2",
+        "Terrasse",
+        "Party room",
+        "Garden terrace home office",
+        "ROOF TERRACE HOUSE PLAN",
+        "semi detached garage",
+        "Semi-detached double garage",
+        "Townhouse car port",
+    ],
+)
 def test_other_words_say_nothing_of_it(text: str) -> None:
     assert terrace_named([written(text)]) is None
     assert terrace_named([written("Mid terrace", 0.5)]) is None
@@ -88,6 +104,7 @@ def test_what_is_asked_closes_windows_and_names_them() -> None:
     assert party(found) == {"east", "west"}
     assert "closed in party walls" in found.storeys[0].doubts[0]
     assert "we" in found.storeys[0].doubts[0]
+    assert "without --terraced, and set party of the walls" in found.storeys[0].doubts[0]
     assert "we" not in {one.id for one in found.storeys[0].openings}
     assert all("we" not in room.openings for room in found.storeys[0].rooms)
 
@@ -107,6 +124,16 @@ def test_thick_blank_sides_are_party_walls() -> None:
     found = with_terrace(with_thickness(0.45), HouseOptions(), by_text=True)
     assert party(found) == {"east", "west"}
     assert "much thicker" in found.storeys[0].doubts[0]
+    (ground,) = with_thickness(0.45).storeys
+    upper = ground.model_copy(
+        update={
+            "name": "first floor",
+            "elevation_m": 2.8,
+            "openings": [*ground.openings, window("we", "east", 2.0, 1.0)],
+        }
+    )
+    above = sample_plan().model_copy(update={"storeys": [ground, upper]})
+    assert with_terrace(above, HouseOptions(), by_text=True) is above
     usual = with_thickness(0.36)
     assert with_terrace(usual, HouseOptions(), by_text=True) is usual
 
@@ -150,6 +177,41 @@ def test_neighbours_are_invented_and_touch_nothing() -> None:
     assert places[:, 2].min() == pytest.approx(0.0)
     alone = sample_plan()
     assert build_neighbours(build_house(alone, HouseOptions()), HouseOptions(), 0.0) is None
+
+
+def as_deep_as(depth_m: float) -> PlanDocument:
+    """The sample with less or more from front to back."""
+    storey = sample_plan().storeys[0]
+    junctions = [
+        one.model_copy(update={"at_m": (one.at_m[0], one.at_m[1] * depth_m / DEPTH_M)})
+        for one in storey.junctions
+    ]
+    return changed(junctions=junctions, rooms=[])
+
+
+@pytest.mark.parametrize("depth_m", [2.4, 3.0, 5.0])
+def test_no_neighbour_stands_beyond_the_roof(depth_m: float) -> None:
+    document = with_terrace(as_deep_as(depth_m), ASKED, by_text=False)
+    options = terrace_options(document, ASKED)
+    part = build_neighbours(build_house(document, options), options, 0.0)
+    assert part is not None
+    of_roof = [row for row, name in enumerate(part.features.name) if name.endswith("roof")]
+    feature = part.polygon_feature[part.triangles.polygon]
+    corners = part.positions_m[part.triangles.indices].astype(float)
+    roofs = corners[np.isin(feature, of_roof)].reshape(-1, 3)
+    blocks = corners[~np.isin(feature, of_roof)].reshape(-1, 3)
+    assert roofs[:, 0].min() == pytest.approx(blocks[:, 0].min(), abs=0.02)
+    assert roofs[:, 0].max() == pytest.approx(blocks[:, 0].max(), abs=0.02)
+
+
+def test_party_walls_that_leave_no_plot_leave_it_all_around() -> None:
+    """As of a court: each lies on the other's side."""
+    document = with_terrace(sample_plan(), ASKED, by_text=False)
+    space = build_house(document, terrace_options(document, ASKED)).spaces[0]
+    first, second = parties_of(space)
+    crossed = [Party(second.face_m, first.out), Party(first.face_m, second.out)]
+    assert own_plot(space.slab, crossed).bounds == own_plot(space.slab, []).bounds
+    assert own_plot(space.slab, parties_of(space)).area < own_plot(space.slab, []).area
 
 
 def test_the_plot_ends_at_the_neighbours() -> None:

@@ -12,7 +12,7 @@ from veduta.plan.house.build import House
 from veduta.plan.house.eaves import UNDER_M, faces_within
 from veduta.plan.house.frame import Sculptor, Surface, level
 from veduta.plan.house.looks import Looks
-from veduta.plan.house.party import neighbour_region, parties_of, row_region
+from veduta.plan.house.party import ROW, neighbour_region, parties_of, row_region
 from veduta.plan.house.roof import roofs_over
 from veduta.plan.house.space import pieces_of
 from veduta.plan.options import HouseOptions
@@ -41,6 +41,8 @@ def build_neighbours(house: House, options: HouseOptions, raised_m: float) -> Pa
         shape = last.covered
         own = neighbour_region(shape, party, 1.0)
         width = float(np.clip(shape.area / max(own.area, 1.0), *WIDTH_M))
+        # No broader than the row's roof reaches.
+        width = min(width, ROW * own.area)
         strip = party.beyond(APART_M).difference(party.beyond(width))
         block = neighbour_region(shape, party, width).intersection(strip)
         feature = builder.feature(

@@ -18,7 +18,7 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.house.hole import Hole
-from veduta.plan.house.party import own_side, parties_of
+from veduta.plan.house.party import Party, own_side, parties_of
 from veduta.plan.house.space import Space, pieces_of, solid_region
 
 Ground = Literal["lawn", "path", "drive", "gravel"]
@@ -83,9 +83,7 @@ class Terrain:
 def terrain_of(space: Space, slope_deg: float) -> Terrain:
     """The plot around a storey; paths lead to its doors, a drive to its garage."""
     house = space.slab
-    left, bottom, right, top = house.bounds
-    whole = box(left - MARGIN_M, bottom - MARGIN_M, right + MARGIN_M, top + MARGIN_M)
-    (plot,) = pieces_of(own_side(whole, parties_of(space)))
+    plot = own_plot(house, parties_of(space))
     ways = ways_in(space)
     inner = house.buffer(-_UNDER_M, join_style="mitre")
     gravel = house.buffer(GRAVEL_M, join_style="mitre")
@@ -114,6 +112,16 @@ def terrain_of(space: Space, slope_deg: float) -> Terrain:
         slope=math.tan(math.radians(slope_deg)),
         ends_m=(float(corners.min()) - LEVEL_M, float(corners.max()) + LEVEL_M),
     )
+
+
+def own_plot(house: BaseGeometry, parties: Sequence[Party]) -> Polygon:
+    """The ground around a house, up to its neighbours'; all around where they leave none, as those
+    at two party walls that face each other over a court.
+    """
+    left, bottom, right, top = house.bounds
+    whole = box(left - MARGIN_M, bottom - MARGIN_M, right + MARGIN_M, top + MARGIN_M)
+    pieces = pieces_of(own_side(whole, parties))
+    return max(pieces, key=lambda piece: piece.area, default=whole)
 
 
 def ways_in(space: Space) -> list[tuple[Hole, NDArray[np.float64]]]:
