@@ -7,6 +7,7 @@ import pytest
 from sample_plan import sample_plan
 
 from veduta.plan.document import Fitting, Furniture, PlanDocument
+from veduta.plan.furnish import drawn_kitchen
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.furnish.furnish import furnish
 
@@ -40,6 +41,18 @@ def furnished(*fittings: Fitting) -> list[Furniture]:
     document = plan.model_copy(update={"storeys": [storey]})
     made, _ = furnish(document, catalogue_of(None), 0, 0.25)
     return [one for one in made.storeys[0].furniture or [] if one.room == "living"]
+
+
+def test_what_finds_no_place_is_called_as_it_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(drawn_kitchen, "_stands", lambda *_: False)
+    plan = sample_plan()
+    drawn = [fitting("kitchen-sink", 1.2), fitting("hob", 3.2)]
+    storey = plan.storeys[0].model_copy(update={"fittings": drawn})
+    document = plan.model_copy(update={"storeys": [storey]})
+    _, rooms = furnish(document, catalogue_of(None), 0, 0.25)
+    notes = " ".join(note for room in rooms for note in room.notes)
+    assert "the kitchen-sink that is drawn" in notes
+    assert "the hob that is drawn" in notes
 
 
 def of_kind(things: list[Furniture], word: str) -> list[Furniture]:

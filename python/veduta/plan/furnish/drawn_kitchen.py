@@ -20,7 +20,8 @@ from veduta.plan.furnish.layout import Layout, Stood
 from veduta.plan.furnish.room import Stretch
 
 UNIT, HOB, SINK = "kitchen-unit", "kitchen-hob", "kitchen-sink"
-TYPES = {"hob": HOB, "kitchen-sink": SINK}
+TYPES: dict[str, str] = {"hob": HOB, "kitchen-sink": SINK}
+_DRAWN = {unit: kind for kind, unit in TYPES.items()}
 RIM_M = 0.06
 """Of the worktop on either side of a sink that is drawn."""
 LEAST_M, USUAL_M, LONGEST_M = 0.3, 0.6, 0.9
@@ -69,7 +70,7 @@ def place_kitchen(
         if _stands(whole, wall, layout, choice, group):
             kinds |= {unit.kind for unit in whole}
         else:
-            missing += [unit.kind.removeprefix("kitchen-") for unit in units]
+            missing += [_DRAWN[unit.kind] for unit in units]
     return missing
 
 
