@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from sample_plan import DEPTH_M, OUTER_M, WIDTH_M, sample_plan, window
+from sample_plan import DEPTH_M, OUTER_M, WIDTH_M, sample_plan, wall, window
 
 from veduta.place.semantics import Provenance
-from veduta.plan.document import PlanDocument, Text
+from veduta.plan.document import Junction, PlanDocument, Text
 from veduta.plan.house.build import build_house
 from veduta.plan.house.neighbours import build_neighbours
 from veduta.plan.house.party import Party, parties_of
@@ -212,6 +212,21 @@ def test_party_walls_that_leave_no_plot_leave_it_all_around() -> None:
     crossed = [Party(second.face_m, first.out), Party(first.face_m, second.out)]
     assert own_plot(space.slab, crossed).bounds == own_plot(space.slab, []).bounds
     assert own_plot(space.slab, parties_of(space)).area < own_plot(space.slab, []).area
+
+
+def test_party_walls_of_a_court_have_no_row_beyond_them() -> None:
+    corners = [(0, 0), (10, 0), (10, 8), (7, 8), (7, 3), (3, 3), (3, 8), (0, 8)]
+    junctions = [Junction(id=f"j{index}", at_m=at, type="L") for index, at in enumerate(corners)]
+    walls = [
+        wall(f"w{index}", f"j{index}", f"j{(index + 1) % 8}", party=index in (3, 5))
+        for index in range(8)
+    ]
+    document = changed(junctions=junctions, walls=walls, rooms=[], openings=[])
+    options = terrace_options(document, ASKED)
+    house = build_house(document, options)
+    assert any("no row goes on at 2 of its sides" in note for note in house.part.notes)
+    assert build_neighbours(house, options, 0.0) is None
+    assert terrain_of(house.spaces[0], 0.0).plot.bounds == own_plot(house.spaces[0].slab, []).bounds
 
 
 def test_the_plot_ends_at_the_neighbours() -> None:

@@ -22,7 +22,7 @@ from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.furniture import Furnishing
 from veduta.plan.house.ground_level import ground_storey
 from veduta.plan.house.looks import Looks
-from veduta.plan.house.party import parties_of
+from veduta.plan.house.party import court_notes, parties_of
 from veduta.plan.house.roof import add_roof
 from veduta.plan.house.room_looks import TilePictures, room_looks
 from veduta.plan.house.sound import sound_part
@@ -74,6 +74,7 @@ def build_house(
     base = first.storey.elevation_m
     add_slab(first.slab, base - GROUND_SLAB_M, base, "ground slab", sculptor)
     top = last.storey.elevation_m + last.storey.height_m
+    builder.notes.extend(court_notes(last))
     builder.notes.extend(add_roof(last.covered, top, sculptor, options, parties_of(last)))
     below = ground_storey(storeys)
     builder.attributes["storeysAboveGround"] = len(spaces) - below

@@ -17,6 +17,8 @@ _FAR_M = 200.0
 EVERYWHERE = box(-_FAR_M, -_FAR_M, _FAR_M, _FAR_M)
 ROW = 2.5
 """A row goes on beyond a side for so many times this house's depth there: its ridge runs along."""
+MOST_BEYOND = 0.2
+"""Share of a house that may lie beyond a party wall: slight wings and walls that are askew do."""
 _ALIKE = 0.98
 """Cosine between the ways out of walls of one side."""
 
@@ -42,7 +44,27 @@ class Party:
 
 
 def parties_of(space: Space) -> list[Party]:
-    """The party walls of a storey, those of one side together at its farthest face."""
+    """The party walls of a storey, those of one side together at its farthest face.
+
+    Without those of a court: no row can go on where much of this house lies.
+    """
+    return [one for one in _all_parties(space) if not _is_of_court(one, space)]
+
+
+def court_notes(space: Space) -> list[str]:
+    """What is to be noted of party walls beyond which the house itself goes on."""
+    count = sum(_is_of_court(one, space) for one in _all_parties(space))
+    if not count:
+        return []
+    return [f"no row goes on at {count} of its sides with party walls: the house itself does"]
+
+
+def _is_of_court(party: Party, space: Space) -> bool:
+    own = space.slab.area
+    return bool(space.slab.intersection(party.beyond()).area > MOST_BEYOND * own)
+
+
+def _all_parties(space: Space) -> list[Party]:
     found: list[Party] = []
     for wall in space.storey.walls:
         line = space.lines.get(wall.id)
