@@ -164,6 +164,13 @@ def _tell(work: Work, animal: Animal, built: Built) -> None:
     if source.left_out:
         count = len(source.left_out)
         work.note(f"{count} of {source.frames} frames were left out: the steps say why")
+    if animal.body.heights == "measured":
+        high = max(piece.half_height for piece in animal.body.slices)
+        wide = max(piece.half_width for piece in animal.body.slices)
+        work.note(
+            f"by the second view it is {2.0 * high * animal.length.metres:.2g} m high where it is"
+            f" highest, {high / wide:.2g} times its width"
+        )
     for gait in built.gaits:
         if gait.states:
             work.picture(

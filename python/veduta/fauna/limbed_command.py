@@ -27,6 +27,11 @@ def make_limbed(
 def _tell(work: Work, animal: LimbedAnimal, built: BuiltLimbed) -> None:
     for doubt in (*animal.doubts, *built.doubts):
         work.doubt(doubt)
+    if animal.widths == "measured":
+        work.note(
+            "by the second view its body is"
+            f" {animal.plan.parts[0].round:.2g} times as wide as it is thick in the first"
+        )
     if animal.missing:
         work.note(f"the silhouettes show no {', '.join(animal.missing)}")
     slides = {stride.name: stride.slides for stride in built.strides}

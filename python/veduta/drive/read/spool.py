@@ -14,7 +14,7 @@ import pyarrow.parquet
 from numpy.typing import NDArray
 
 from veduta.drive.read.tables import list_column, open_table, time_column
-from veduta.run.errors import InputError
+from veduta.run.errors import NO_ROOM, InputError, UnwritableError
 
 _ROWS = 4096
 """Of a table that are in memory at once."""
@@ -49,6 +49,8 @@ class SpooledScans:
                     self._file.write(ranges.tobytes())
                     times.append(time_column(path, rows))
             except (pyarrow.ArrowException, OSError) as error:
+                if isinstance(error, OSError) and error.errno in NO_ROOM:
+                    raise _no_room(error) from error
                 fault = "is a Parquet table that breaks off"
                 raise InputError(path, fault, "Copy it again.") from error
         if not times or not self.beams or not len(np.concatenate(times)):
@@ -65,3 +67,9 @@ class SpooledScans:
         """The ranges of each scan, by their times."""
         for row in self.order.tolist():
             yield self.ranges(row)
+
+
+def _no_room(error: OSError) -> UnwritableError:
+    fault = f"cannot be written ({error.strerror})"
+    remedy = "Make room there: scans are kept in it while they are read (TMPDIR names another)."
+    return UnwritableError(tempfile.gettempdir(), fault, remedy)
