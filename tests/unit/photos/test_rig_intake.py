@@ -30,6 +30,23 @@ def write(folder: Path, *names: str, size: tuple[int, int] = (80, 70)) -> Path:
     return folder
 
 
+def test_what_two_cameras_see_alike_are_no_copies(tmp_path: Path) -> None:
+    write(tmp_path, "left/a.png", "left/b.png")
+    (tmp_path / "right").mkdir()
+    for name in ("a.png", "b.png"):
+        (tmp_path / "right" / name).write_bytes((tmp_path / "left" / name).read_bytes())
+    call = plan_call(tmp_path, rig=True)
+    assert len(call.sources) == 4
+
+
+def test_a_camera_without_photos_that_can_be_read(tmp_path: Path) -> None:
+    write(tmp_path, "left/a.png", "left/b.png")
+    (tmp_path / "right").mkdir()
+    (tmp_path / "right" / "a.png").write_bytes(b"no picture")
+    call = plan_call(tmp_path, rig=True)
+    assert [source.name for source in call.sources if source.name.startswith("left/")]
+
+
 def test_photos_are_called_by_camera_and_frame(tmp_path: Path) -> None:
     write(tmp_path, "left/a.png", "left/b.png", "left/c.png", "right/A.png", "right/b.png")
     call = plan_call(tmp_path, rig=True)

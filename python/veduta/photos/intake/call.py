@@ -115,10 +115,10 @@ def _of_a_rig(folder: Path | None, given: Given) -> Call:
     copies: list[tuple[str, str]] = []
     unreadable: list[tuple[str, str]] = []
     unread: list[tuple[str, str]] = []
-    known: dict[str, str] = {}
     inner = _camera_folders(folder)
     for one in inner:
-        found = _found(one, f"{one.name}/", known)
+        # Two cameras that see nothing may have the same picture.
+        found = _found(one, f"{one.name}/", {})
         sources += found[0]
         copies += found[1]
         unreadable += found[2]

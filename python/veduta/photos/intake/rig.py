@@ -153,7 +153,7 @@ def _mount_of(name: str) -> Mount:
 
 
 def _require_matching(folder: Path, frames: Mapping[str, set[str]]) -> None:
-    for camera, own in frames.items():
+    for camera, own in frames.items() if len(frames) > 1 else ():
         others = {name: theirs for name, theirs in frames.items() if name != camera}
         shared = {name: len(own & theirs) for name, theirs in others.items()}
         nearest = max(shared, key=lambda name: (shared[name], name))
