@@ -41,6 +41,7 @@ export class Asking {
   readonly #endNetwork: () => void;
   #failures = 0;
   #cancel: (() => void) | null = null;
+  #isOver = false;
 
   constructor(ask: () => void, around: Surroundings = PAGE) {
     this.#ask = ask;
@@ -50,7 +51,7 @@ export class Asking {
 
   /** Something did not come: it is asked for again after a while. */
   failed(): void {
-    if (this.#cancel !== null) return;
+    if (this.#cancel !== null || this.#isOver) return;
     this.#failures += 1;
     this.#cancel = this.#around.after(pauseAfter_ms(this.#failures), () => {
       this.#cancel = null;
@@ -72,6 +73,7 @@ export class Asking {
   }
 
   dispose(): void {
+    this.#isOver = true;
     this.#cancel?.();
     this.#cancel = null;
     this.#endNetwork();

@@ -13,6 +13,7 @@ interface Open {
   readonly file: string;
   readonly attempt: () => Promise<void>;
   fault: Fault | null;
+  isUnderway: boolean;
 }
 
 export class Wishes {
@@ -44,15 +45,17 @@ export class Wishes {
     this.#asking.now();
   }
 
-  /** `take` gets what `load` brings, at once or later. What is broken is named, but not loaded again. */
+  /** `take` gets what `load` brings, at once or later, and once. What is broken, or cannot be taken, is named but not loaded again. */
   bring<T>(file: string, load: () => Promise<T>, take: (brought: T) => void): Wish {
     const wish: Open = {
       file,
       fault: null,
+      isUnderway: false,
       attempt: async () => {
         const brought = await load();
-        this.#open.delete(wish);
+        wish.fault = null;
         take(brought);
+        this.#open.delete(wish);
       },
     };
     this.#open.add(wish);
@@ -70,6 +73,7 @@ export class Wishes {
   }
 
   async #try(wish: Open): Promise<void> {
+    wish.isUnderway = true;
     this.#waiting += 1;
     try {
       await wish.attempt();
@@ -79,11 +83,12 @@ export class Wishes {
       // What is broken is as broken the next time.
       if (wish.fault instanceof Absent && this.#open.has(wish)) this.#asking.failed();
     }
+    wish.isUnderway = false;
     this.#waiting -= 1;
     this.#onChange();
   }
 
   #askAgain(): void {
-    for (const wish of [...this.#open]) if (wish.fault instanceof Absent) void this.#try(wish);
+    for (const wish of [...this.#open]) if (wish.fault instanceof Absent && !wish.isUnderway) void this.#try(wish);
   }
 }

@@ -19,8 +19,8 @@ export class Arrivals {
   readonly #asking: Asking;
   readonly #sight: () => Sight;
   readonly #balls: readonly Ball[];
-  #queue: number[];
-  #underway = 0;
+  readonly #queue: Set<number>;
+  readonly #underway = new Set<number>();
   #untried: number;
   #arrived = 0;
   readonly #missing = new Map<number, Fault>();
@@ -33,23 +33,23 @@ export class Arrivals {
     this.#onChange = onChange;
     this.#sight = sight;
     this.#balls = parts.map(ballOf);
-    this.#queue = parts.map((_, index) => index);
+    this.#queue = new Set(parts.keys());
     this.#untried = parts.length;
     this.#asking = new Asking(() => this.#askAgain(), around);
   }
 
   start(): void {
-    while (this.#underway < AT_ONCE) {
+    while (this.#underway.size < AT_ONCE) {
       const index = this.#next();
       if (index === undefined) return;
-      this.#underway += 1;
+      this.#underway.add(index);
       void this.#bring(index);
     }
   }
 
   /** Parts that are asked for and have not come yet. */
   get waiting(): number {
-    return this.#underway + this.#queue.length;
+    return this.#underway.size + this.#queue.size;
   }
 
   get missing(): Missing[] {
@@ -72,7 +72,7 @@ export class Arrivals {
   }
 
   dispose(): void {
-    this.#queue = [];
+    this.#queue.clear();
     this.#asking.dispose();
   }
 
@@ -84,13 +84,15 @@ export class Arrivals {
   /** What is to come first of those that wait, as one sees now. */
   #next(): number | undefined {
     const sight = this.#sight();
-    let [first, best] = [0, Infinity];
-    for (const [place, index] of this.#queue.entries()) {
+    let [first] = this.#queue;
+    let best = Infinity;
+    for (const index of this.#queue) {
       const [part, ball] = [this.#parts[index], this.#balls[index]];
       const rank = part === undefined || ball === undefined ? Infinity : rankOf(part, ball, sight);
-      if (rank < best) [first, best] = [place, rank];
+      if (rank < best) [first, best] = [index, rank];
     }
-    return this.#queue.splice(first, 1)[0];
+    if (first !== undefined) this.#queue.delete(first);
+    return first;
   }
 
   async #bring(index: number): Promise<void> {
@@ -106,7 +108,7 @@ export class Arrivals {
       // What is broken is as broken the next time.
       if (fault instanceof Absent) this.#asking.failed();
     }
-    this.#underway -= 1;
+    this.#underway.delete(index);
     if (isFirstTry) this.#untried -= 1;
     for (const { isDone, tell } of this.#waiters) if (isDone()) tell();
     this.#onChange();
@@ -114,7 +116,7 @@ export class Arrivals {
   }
 
   #askAgain(): void {
-    for (const [index, fault] of this.#missing) if (fault instanceof Absent) this.#queue.push(index);
+    for (const [index, fault] of this.#missing) if (fault instanceof Absent && !this.#underway.has(index)) this.#queue.add(index);
     this.start();
   }
 }

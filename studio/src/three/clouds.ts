@@ -18,6 +18,7 @@ export class CloudArrivals {
   readonly #asking: Asking;
   readonly #reader = new PointReader();
   readonly #missing = new Map<number, Fault>();
+  readonly #underway = new Set<number>();
   #tried = 0;
 
   /** `onChange` is called when one that had not come was asked for again. */
@@ -52,7 +53,8 @@ export class CloudArrivals {
 
   async #try(index: number, onShare: (share: number) => void): Promise<void> {
     const cloud = this.#clouds[index];
-    if (cloud === undefined) return;
+    if (cloud === undefined || this.#underway.has(index)) return;
+    this.#underway.add(index);
     try {
       this.group.add(placed(await this.#read(cloud, onShare), cloud));
       this.#missing.delete(index);
@@ -63,10 +65,12 @@ export class CloudArrivals {
       // What is broken is as broken the next time.
       if (told instanceof Absent) this.#asking.failed();
     }
+    this.#underway.delete(index);
   }
 
   async #askAgain(): Promise<void> {
-    for (const [index, fault] of [...this.#missing]) if (fault instanceof Absent) await this.#try(index, () => undefined);
+    // One that has come while others were asked for is not asked for again.
+    for (const index of [...this.#missing.keys()]) if (this.#missing.get(index) instanceof Absent) await this.#try(index, () => undefined);
     this.#onChange();
   }
 

@@ -73,4 +73,17 @@ describe("the parts of a place", () => {
     around.wait();
     await vi.waitFor(() => expect(asked).toEqual(["north", "south", "north", "south"]));
   });
+
+  it("are not asked for twice at once, though another fails meanwhile", async () => {
+    const two = [house("north", 0, 20), house("south", 0, -10)];
+    const { asked, open, around, arrivals } = coming(two, () => north);
+    open[0]?.fail();
+    await vi.waitFor(() => expect(arrivals.missing).toHaveLength(1));
+    around.wait();
+    expect(asked).toEqual(["north", "south", "north"]);
+    open[1]?.fail();
+    await vi.waitFor(() => expect(arrivals.missing).toHaveLength(2));
+    around.wait();
+    expect([asked, arrivals.waiting]).toEqual([["north", "south", "north", "south"], 2]);
+  });
 });

@@ -87,6 +87,33 @@ describe("clouds on their way", () => {
     expect(clouds.group.children).toHaveLength(1);
   });
 
+  it("are not asked for twice at once, though another fails meanwhile", async () => {
+    const open: ((answer: Response) => void)[] = [];
+    const asked: string[] = [];
+    vi.stubGlobal("fetch", (address: URL) => {
+      asked.push(String(address).split("/").at(-1) ?? "");
+      return new Promise<Response>((resolve) => open.push(resolve));
+    });
+    const around = new Fake();
+    const two = [cloud, { ...cloud, file: "far.ply" }];
+    const clouds = new CloudArrivals(two, new URL("http://place/place.json"), () => undefined, around);
+    void clouds.bring(() => undefined);
+    const answer = async (index: number, response: Response, then: number): Promise<void> => {
+      open[index]?.(response);
+      await vi.waitFor(() => expect(asked).toHaveLength(then));
+    };
+    await answer(0, new Response(null, { status: 503 }), 2);
+    around.wait();
+    expect(asked).toEqual(["points.ply", "far.ply", "points.ply"]);
+    open[1]?.(new Response(null, { status: 503 }));
+    await vi.waitFor(() => expect(clouds.missing).toHaveLength(2));
+    around.wait();
+    await vi.waitFor(() => expect(asked.slice(3)).toEqual(["far.ply"]));
+    for (const index of [2, 3]) open[index]?.(new Response(ply(3)));
+    await vi.waitFor(() => expect(clouds.missing).toEqual([]));
+    expect([clouds.group.children.length, asked.length]).toEqual([2, 4]);
+  });
+
   it("are not asked for again where they are broken", async () => {
     const { around, clouds } = arriving([() => new Response(ply(2, 3)), () => new Response(ply(3))]);
     await clouds.bring(() => undefined);

@@ -66,6 +66,33 @@ describe("a file that is wished for", () => {
     expect(count()).toBe(1);
   });
 
+  it("is not asked for twice at once, though another fails meanwhile, and is taken once", async () => {
+    const { all, around } = wishes();
+    const taken: string[] = [];
+    const slow: ((answer: string) => void)[] = [];
+    const load = vi.fn<() => Promise<string>>().mockRejectedValueOnce(absent);
+    load.mockImplementation(async () => await new Promise((resolve) => slow.push(resolve)));
+    await all.bring("a.webp", load, (brought) => taken.push(brought)).tried;
+    around.wait();
+    await vi.waitFor(() => expect(load).toHaveBeenCalledTimes(2));
+    const other = loading([absent]);
+    await all.bring("b.webp", other.load, () => undefined).tried;
+    around.wait();
+    await vi.waitFor(() => expect(other.count()).toBe(2));
+    for (const come of slow) come("here");
+    await vi.waitFor(() => expect(all.missing.map(({ file }) => file)).toEqual(["b.webp"]));
+    expect([load.mock.calls.length, taken]).toEqual([2, ["here"]]);
+  });
+
+  it("is named where it comes but cannot be taken", async () => {
+    const { all } = wishes();
+    const take = (): void => {
+      throw new Fault("a.webp", "it does not fit", "Copy it.");
+    };
+    await all.bring("a.webp", loading(["here"]).load, take).tried;
+    expect(all.missing.map(({ fault }) => fault.fault)).toEqual(["it does not fit"]);
+  });
+
   it("is named once where two wish for it", async () => {
     const { all } = wishes();
     await Promise.all([1, 2].map(async () => await all.bring("a.webp", loading([absent]).load, () => undefined).tried));
