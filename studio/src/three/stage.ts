@@ -144,11 +144,11 @@ export class Stage {
     this.showLayers(state);
   }
 
-  /** The model of a part has come. */
-  take(index: number, state: StudioState): void {
+  /** The model of a part has come; the result is what is drawn of it. */
+  take(index: number, state: StudioState): Group | null {
     const { parts } = this.#content;
     const slot = parts[index];
-    if (slot === undefined) return;
+    if (slot === undefined) return null;
     this.appearance.take(index);
     layIfGround(slot);
     if (this.solid instanceof PlaceSolid) this.solid.take(index);
@@ -157,6 +157,7 @@ export class Stage {
     this.light(state.hour);
     this.appearance.tint(state);
     this.showLayers(state);
+    return slot.group;
   }
 
   /** Shows what the person wants to see, and hides the rest. */

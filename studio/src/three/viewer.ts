@@ -1,5 +1,5 @@
 /** Draws the place and moves the camera through it, as the state says. */
-import { PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
+import { type Object3D, PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
 import { worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import type { Hold } from "../core/input.ts";
@@ -122,9 +122,9 @@ export class Viewer {
     return this.#stage.solid;
   }
 
-  /** Compiles what is there already while the rest is on its way. */
-  warm(): void {
-    void this.#renderer.compileAsync(this.#stage.scene, this.#camera);
+  /** Compiles what is there already, or one thing of it, while the rest is on its way to the first picture. */
+  warm(what: Object3D = this.#stage.scene): void {
+    if (!this.#isPrepared) void this.#renderer.compileAsync(what, this.#camera, this.#stage.scene);
   }
 
   /** Compiles and draws once, so that the first picture the person sees is whole. */
@@ -154,9 +154,9 @@ export class Viewer {
 
   /** The model of a part has come. */
   take(part: number): void {
-    this.#stage.take(part, this.#store.value);
+    const group = this.#stage.take(part, this.#store.value);
     this.#walk.body = this.#stage.body;
-    this.warm();
+    if (group !== null) this.warm(group);
     this.invalidate();
   }
 
