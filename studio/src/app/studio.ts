@@ -2,7 +2,7 @@
 import { html, LitElement, nothing, type TemplateResult } from "lit";
 import { keyed } from "lit/directives/keyed.js";
 import { faultOf, Fault } from "../core/fault.ts";
-import { type Command, commandOf, holdOf } from "../core/input.ts";
+import { type Command, commandOf, holdOf, letGo } from "../core/input.ts";
 import { type Entry, entriesOf } from "../core/palette.ts";
 import { INITIAL_STATE, type StudioState } from "../core/state.ts";
 import { Store } from "../core/store.ts";
@@ -153,8 +153,14 @@ export class Studio extends LitElement {
       closeLayersIfNarrow: () => {
         if (isNarrow()) this.layersOpen = false;
       },
-      toggleHelp: () => this.#help?.toggle(),
-      togglePalette: () => this.#palette?.toggle(),
+      toggleHelp: () => {
+        session.viewer.releaseKeys();
+        this.#help?.toggle();
+      },
+      togglePalette: () => {
+        session.viewer.releaseKeys();
+        this.#palette?.toggle();
+      },
       leaveFree: () => this.#leaveFree(session),
     });
   }
@@ -308,15 +314,17 @@ export class Studio extends LitElement {
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { session } = this;
     if (session === null || this.fault !== null) return;
-    if (this.#help?.isOpen === true || this.#palette?.isOpen === true) return;
+    const free = down ? null : letGo(event.code);
+    if (free !== null) session.viewer.hold(free, false);
+    if (!down || this.#help?.isOpen === true || this.#palette?.isOpen === true) return;
     const hold = holdOf(event);
     if (hold !== null) {
-      if (down && isTyping(event)) return;
-      session.viewer.hold(hold, down);
-      if (down && event.code.startsWith("Arrow")) event.preventDefault();
+      if (isTyping(event)) return;
+      session.viewer.hold(hold, true);
+      if (event.code.startsWith("Arrow")) event.preventDefault();
       return;
     }
-    const command = down && !event.repeat && !isTyping(event) ? commandOf(event) : null;
+    const command = !event.repeat && !isTyping(event) ? commandOf(event) : null;
     if (command === null) return;
     event.preventDefault();
     this.#commands?.do(command);

@@ -103,6 +103,11 @@ export function holdOf(press: KeyPress): Hold | null {
   return actionOf(HOLD_BINDINGS, press.code);
 }
 
+/** A key that is let go is held no longer, whatever else is pressed. */
+export function letGo(code: string): Hold | null {
+  return actionOf(HOLD_BINDINGS, code);
+}
+
 function actionOf<A>(bindings: readonly Binding<A>[], code: string): A | null {
   return bindings.find((binding) => binding.codes.includes(code))?.action ?? null;
 }

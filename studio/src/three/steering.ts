@@ -28,9 +28,12 @@ export class Steering {
     this.#store = store;
   }
 
-  hold(key: Hold, down: boolean): void {
+  /** Whether the key is held otherwise than before. */
+  hold(key: Hold, down: boolean): boolean {
+    const before = this.#held.has(key);
     if (down) this.#held.add(key);
     else this.#held.delete(key);
+    return before !== down;
   }
 
   release(): void {

@@ -243,8 +243,7 @@ export class Viewer {
   }
 
   hold(key: Hold, down: boolean): void {
-    this.#steering.hold(key, down);
-    this.invalidate();
+    if (this.#steering.hold(key, down) || down) this.invalidate();
   }
 
   releaseKeys(): void {

@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from "vitest";
-import { COMMAND_BINDINGS, commandOf, HOLD_BINDINGS, holdOf, turnOf, wishOf } from "../../src/core/input.ts";
+import { COMMAND_BINDINGS, commandOf, HOLD_BINDINGS, holdOf, letGo, turnOf, wishOf } from "../../src/core/input.ts";
 import { FULL_PACE, paced, sharpnessOf } from "../../src/core/pace.ts";
 import { INITIAL_STATE, withLayer } from "../../src/core/state.ts";
 import { Store } from "../../src/core/store.ts";
@@ -8,6 +8,11 @@ import { areaText, countText, sizeText } from "../../src/core/wording.ts";
 const plain = { ctrlKey: false, altKey: false, metaKey: false };
 
 describe("keys", () => {
+  it("are let go of whatever else is pressed", () => {
+    expect(holdOf({ ...plain, ctrlKey: true, code: "KeyW", key: "w" })).toBeNull();
+    expect([letGo("KeyW"), letGo("ShiftRight"), letGo("KeyK")]).toEqual(["forward", "run", null]);
+  });
+
   it("have one meaning each", () => {
     const codes = [...COMMAND_BINDINGS, ...HOLD_BINDINGS].flatMap((binding) => binding.codes);
     expect(new Set(codes).size).toBe(codes.length);
