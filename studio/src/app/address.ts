@@ -1,4 +1,5 @@
 /** The page's address says what one sees: it can be shared, loaded again, and gone back from. */
+import { type FeatureTable, rowNamed } from "../core/features.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import { readView, writeView } from "../core/view-link.ts";
@@ -17,6 +18,8 @@ export class Address {
   #isStep = false;
   /** The surface that a link chooses and that has not come yet. */
   #awaited: string | null = null;
+  /** Tiles, and rows of parts, that do not hold it. */
+  #looked = new WeakSet();
 
   constructor(session: Session, store: Store<StudioState>, commands: Commands) {
     this.#session = session;
@@ -25,8 +28,8 @@ export class Address {
     store.subscribe((now, before) => {
       // One goes back from another mode, another photo; not from a step of the walk.
       if (now.mode !== before.mode || now.shot !== before.shot || (now.morph === null) !== (before.morph === null)) this.#isStep = true;
-      // Whoever chooses another waits no longer.
-      if (now.selected !== null) this.#awaited = null;
+      // Whoever chooses another, or closes what was chosen, waits no longer.
+      if (now.selected !== before.selected) this.#awaited = null;
       this.changed();
     });
     addEventListener("popstate", () => this.show(location.hash));
@@ -46,6 +49,7 @@ export class Address {
     if (view === null) return false;
     this.#commands.do("view", view);
     this.#awaited = view.picked;
+    this.#looked = new WeakSet();
     this.arrived();
     this.#isStep = false;
     return true;
@@ -55,6 +59,13 @@ export class Address {
   arrived(): void {
     const found = this.#awaited === null ? null : this.#refOf(this.#awaited);
     if (found !== null) this.#commands.do("select", found);
+  }
+
+  /** Whoever clicks or closes something waits for the surface of a link no longer. */
+  drop(): void {
+    if (this.#awaited === null) return;
+    this.#awaited = null;
+    this.changed();
   }
 
   /** The view has changed: the address will say so when it is still. */
@@ -93,11 +104,19 @@ export class Address {
 
   /** A link may name the id alone: then it is the first of that id. */
   #refOf(picked: string): FeatureRef | null {
-    for (const [part, { rows }] of this.#session.tables.entries()) {
-      for (const [row, { id }] of rows.entries()) {
-        if (picked === id || (picked.endsWith(`/${id}`) && picked === `${this.#ownerOf({ part, row })}/${id}`)) return { part, row };
-      }
+    for (const [part, table] of this.#session.tables.entries()) {
+      if (!this.#isNew(table)) continue;
+      const row = rowNamed(table, picked, (at) => this.#ownerOf({ part, row: at }));
+      if (row !== null) return { part, row };
     }
     return null;
+  }
+
+  /** The table of a part gets other rows when it comes; that of a tile makes its rows anew whenever one asks. */
+  #isNew(table: FeatureTable): boolean {
+    const known = table.ending === undefined ? table.rows : table;
+    const isNew = !this.#looked.has(known);
+    this.#looked.add(known);
+    return isNew;
   }
 }

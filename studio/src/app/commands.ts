@@ -51,6 +51,8 @@ export interface Page {
   closeLayersIfNarrow(): void;
   toggleHelp(): void;
   togglePalette(): void;
+  /** The surface that a link chooses is waited for no longer. */
+  dropLink(): void;
   /** The viewer learns which part of the picture the panels cover. */
   leaveFree(): void;
 }
@@ -87,6 +89,7 @@ export class Commands {
 
   /** What a click on the place means. */
   choose(choice: Choice): void {
+    this.#page.dropLink();
     if (choice.kind === "photo") this.do("look-through", choice.shot);
     else if (choice.kind === "surface") this.do("select", choice.feature);
     else this.do("lead", choice);
@@ -190,6 +193,7 @@ export class Commands {
 
   /** First what lies over the picture, then the photo on the surfaces. */
   #close(): void {
+    this.#page.dropLink();
     const { selected, shot } = this.#store.value;
     if (selected === null && shot === null) this.#store.update({ projected: null });
     else this.#store.update({ selected: null, shot: null });

@@ -161,6 +161,7 @@ export class Studio extends LitElement {
         session.viewer.releaseKeys();
         this.#palette?.toggle();
       },
+      dropLink: () => this.#address?.drop(),
       leaveFree: () => this.#leaveFree(session),
     });
   }

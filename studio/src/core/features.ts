@@ -29,6 +29,8 @@ export interface Feature {
 /** The mesh's `_FEATURE_ID_0` is the row of the face's feature, as in EXT_mesh_features. */
 export interface FeatureTable {
   readonly rows: readonly Feature[];
+  /** The row with whose id a text ends; only where a table can tell it without making its rows. */
+  ending?(text: string): { readonly row: number; readonly id: string } | null;
 }
 
 const COLUMNS = [
@@ -121,6 +123,17 @@ function readRectangle(value: unknown, bad: () => Fault): PhotoRectangle | null 
   const [x, y, w, h] = value.map((v: unknown) => (Number.isFinite(v) ? (v as number) : Number.NaN));
   if ([x, y, w, h].some((v) => v === undefined || Number.isNaN(v))) throw bad();
   return [x, y, w, h] as PhotoRectangle;
+}
+
+/** The row that a link names: by its id alone, or by whose it is and its id. */
+export function rowNamed(table: FeatureTable, named: string, ownerOf: (row: number) => string): number | null {
+  const isNamed = (id: string, row: number): boolean => named === id || (named.endsWith(`/${id}`) && named === `${ownerOf(row)}/${id}`);
+  if (table.ending !== undefined) {
+    const found = table.ending(named);
+    return found !== null && isNamed(found.id, found.row) ? found.row : null;
+  }
+  const row = table.rows.findIndex(({ id }, at) => isNamed(id, at));
+  return row < 0 ? null : row;
 }
 
 export function childrenOf(table: FeatureTable, row: number): readonly Feature[] {

@@ -94,6 +94,14 @@ export class TileTable implements FeatureTable {
     return made;
   }
 
+  /** Ids end with their row. */
+  ending(text: string): { readonly row: number; readonly id: string } | null {
+    const row = Number(/-(\d+)$/.exec(text)?.[1] ?? NaN);
+    if (!(row < this.count)) return null;
+    const { id } = this.#feature(row);
+    return text.endsWith(id) ? { row, id } : null;
+  }
+
   classOf(row: number): SemanticClass {
     return this.#classes[this.#class[row] ?? 255] ?? "other";
   }

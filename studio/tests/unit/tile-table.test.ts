@@ -1,4 +1,5 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
+import { rowNamed } from "../../src/core/features.ts";
 import { Fault } from "../../src/core/fault.ts";
 import { TileTable } from "../../src/core/tile-table.ts";
 
@@ -82,5 +83,16 @@ describe("the surfaces of a tile", () => {
   it("are refused where a column is cut short", () => {
     const short = (view: number): Uint8Array => views(view).subarray(0, 2);
     expect(() => new TileTable(metadata(), short, "a.glb")).toThrow("cut short");
+  });
+
+  it("finds the row that a link names without making its rows", () => {
+    const table = new TileTable(metadata(), views, "a.glb");
+    const rows = vi.spyOn(table, "rows", "get");
+    const { id } = table.ending(table.rows[2]?.id ?? "") ?? { id: "" };
+    rows.mockClear();
+    expect(rowNamed(table, id, () => "")).toBe(2);
+    expect(rowNamed(table, `Mill/${id}`, () => "Mill")).toBe(2);
+    expect([`Barn/${id}`, `${id}0`, "wall", "", "a-9"].map((text) => rowNamed(table, text, () => "Mill"))).toEqual([null, null, null, null, null]);
+    expect(rows).not.toHaveBeenCalled();
   });
 });
