@@ -20,20 +20,34 @@ export class Helper<Asked extends Numbered, Answer extends Numbered> {
 
   /** Null where no worker does it: then whoever asks does it himself, with what he still has. */
   async ask(work: Omit<Asked, "id">): Promise<Answer | null> {
-    this.#help ??= this.#help === null ? null : this.#start();
-    const help = this.#help;
+    const help = this.#helping();
     if (help === null) return null;
     this.#asked += 1;
     const id = this.#asked;
     return await new Promise((resolve) => {
       this.#waiting.set(id, resolve);
-      help.postMessage({ ...work, id });
+      try {
+        help.postMessage({ ...work, id });
+      } catch {
+        // Memory is too short for a copy: the page does the work with what it has.
+        this.#waiting.delete(id);
+        resolve(null);
+      }
     });
   }
 
+  /** Whether a worker takes work; the first who asks starts it. */
+  get isThere(): boolean {
+    return this.#helping() !== null;
+  }
+
   dispose(): void {
-    this.#help?.terminate();
     this.#lose();
+  }
+
+  #helping(): Help | null {
+    if (this.#help === undefined) this.#help = this.#start();
+    return this.#help;
   }
 
   #start(): Help | null {
@@ -53,6 +67,7 @@ export class Helper<Asked extends Numbered, Answer extends Numbered> {
   }
 
   #lose(): void {
+    this.#help?.terminate();
     this.#help = null;
     for (const tell of this.#waiting.values()) tell(null);
     this.#waiting.clear();

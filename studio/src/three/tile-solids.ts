@@ -32,10 +32,11 @@ export class TileSolids {
 
   /** Grows the solid of a tile to which somebody is on his way. Its scene hangs in the town. */
   growAhead(scene: Object3D, model: TileModel): void {
-    if (this.#solids.has(scene) || this.#growing.has(scene)) return;
+    // Without a worker it is made when it is needed: its faces are not even copied before.
+    if (this.#solids.has(scene) || this.#growing.has(scene) || !this.#helper.isThere) return;
     this.#growing.add(scene);
     void this.#helper.ask({ pieces: model.pieces(), more: NOTHING }).then((grown) => {
-      // What was dropped or grown meanwhile is not wanted; without a worker it is made when it is needed.
+      // What was dropped or grown meanwhile is not wanted.
       if (!this.#growing.delete(scene) || grown === null || this.#solids.has(scene)) return;
       this.#keep(scene, solidOf(grown.positions, grown.tree));
     });

@@ -58,6 +58,11 @@ function helpHere(): Help & { answer: () => void; asked: number } {
   return help;
 }
 
+/** All that follows from an answer has happened. */
+async function settled(): Promise<void> {
+  await new Promise((resolve) => setTimeout(resolve));
+}
+
 describe("the solids of tiles", () => {
   it("are those of all faces, whether grown here or in a worker", async () => {
     const model = tile();
@@ -68,8 +73,11 @@ describe("the solids of tiles", () => {
     ahead.growAhead(model.scene, model);
     expect(help.asked).toBe(1);
     help.answer();
+    await settled();
     const here = new TileSolids(() => null).of(model.scene, model);
-    await vi.waitFor(() => expect(ahead.of(model.scene, model).faceCount).toBe(5));
+    const pieces = vi.spyOn(model, "pieces");
+    expect(ahead.of(model.scene, model).faceCount).toBe(5);
+    expect(pieces).not.toHaveBeenCalled(); // it is the worker's
     for (const solid of [here, ahead.of(model.scene, model)]) {
       expect(solid.bounds).toEqual(whole.bounds);
       for (const [x, y] of [[14, 4.9], [11.2, 2.9], [30, 4]] as const) {
@@ -85,10 +93,18 @@ describe("the solids of tiles", () => {
     solids.growAhead(model.scene, model);
     const own = solids.of(model.scene, model);
     help.answer();
-    await Promise.resolve();
+    await settled();
     expect(solids.of(model.scene, model)).toBe(own);
     solids.drop(model.scene);
     expect(solids.has(model.scene)).toBe(false);
+  });
+
+  it("are not grown ahead where there is no worker, and no face is copied for it", () => {
+    const model = tile();
+    const pieces = vi.spyOn(model, "pieces");
+    const solids = new TileSolids(() => null);
+    solids.growAhead(model.scene, model);
+    expect([pieces.mock.calls.length, solids.has(model.scene)]).toEqual([0, false]);
   });
 
   it("are kept of the last few alone", () => {
