@@ -48,12 +48,34 @@ export interface Session {
 /** A place of so few parts is shown when all have come: they belong together, as a house and its garden do. */
 const FEW_PARTS = 4;
 
+/** Nothing is left over of a place that cannot be opened: neither what asks for its files nor what draws it. */
 export async function openPlace(
   page: URL,
   canvas: HTMLCanvasElement,
   store: Store<StudioState>,
   onProgress: (share: number, file: string) => void,
   onShown: () => void,
+): Promise<Session> {
+  const opened: Opened[] = [];
+  try {
+    return await open(page, canvas, store, onProgress, onShown, opened);
+  } catch (error) {
+    for (const one of opened.reverse()) one.dispose();
+    throw error;
+  }
+}
+
+interface Opened {
+  dispose(): void;
+}
+
+async function open(
+  page: URL,
+  canvas: HTMLCanvasElement,
+  store: Store<StudioState>,
+  onProgress: (share: number, file: string) => void,
+  onShown: () => void,
+  opened: Opened[],
 ): Promise<Session> {
   const begin = performance.now();
   checkWebGL();
@@ -72,6 +94,13 @@ export async function openPlace(
     tileset === null
       ? null
       : new Town(fileAddress(tileset, address), budget, () => viewer?.invalidate(), onShown);
+  // A viewer lets go of what it draws.
+  opened.push({
+    dispose: () => {
+      (viewer ?? town)?.dispose();
+      viewer = null; // for what comes after that
+    },
+  });
   const parts = tileset === null ? place.parts.map((part) => new PartSlot(part)) : [];
   const images = new SharedImages(budget.mostTexture_px);
   // What is asked for as one looks about: pictures, models of a walk, documents.
@@ -81,6 +110,7 @@ export async function openPlace(
   });
   const alive = new Set(place.animals.map(({ part }) => part));
   const grower = new Grower();
+  opened.push(wishes, grower);
   const houses: LoadedHouse[] = [];
   let tables: readonly FeatureTable[] = parts.map(({ table }) => table);
   const shares = parts.map(() => 0);
@@ -103,6 +133,7 @@ export async function openPlace(
     });
   };
   const arrivals = new Arrivals(tileset === null ? place.parts : [], sight, bring, onShown);
+  opened.push(arrivals);
   arrivals.start();
   await town?.open((share) => onProgress(share, "tileset.json"));
   const isSized = parts.every(({ part }) => part.bounds !== null);
@@ -117,6 +148,7 @@ export async function openPlace(
     onShown();
   };
   const clouds = new CloudArrivals(place.clouds, address, showClouds);
+  opened.push(clouds);
   // Points are waited for where there is nothing else to see.
   const isCloudAlone = place.parts.length + place.walks.length === 0 && town === null;
   if (isCloudAlone) await clouds.bring((share, file) => onProgress(0.97 * share, file));
@@ -138,15 +170,11 @@ export async function openPlace(
     },
     bringingBy(sight),
   );
+  opened.push(recorded);
   viewer = new Viewer(canvas, place, { parts, recorded, town, clouds: clouds.group, frusta, textures, houses, budget, morphs }, store);
   viewer.warm();
-  try {
-    await arrived();
-    await viewer.prepare();
-  } catch (error) {
-    viewer.dispose();
-    throw error;
-  }
+  await arrived();
+  await viewer.prepare();
   onProgress(1, "");
   if (!isCloudAlone) void clouds.bring(() => undefined).then(showClouds);
   return {

@@ -51,6 +51,11 @@ export class CloudArrivals {
     }
   }
 
+  dispose(): void {
+    this.#asking.dispose();
+    this.#reader.dispose();
+  }
+
   async #try(index: number, onShare: (share: number) => void): Promise<void> {
     const cloud = this.#clouds[index];
     if (cloud === undefined || this.#underway.has(index)) return;

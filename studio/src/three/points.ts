@@ -47,6 +47,10 @@ export class PointReader {
     }
     return geometry;
   }
+
+  dispose(): void {
+    this.#helper.dispose();
+  }
 }
 
 function startWorker(): Help | null {

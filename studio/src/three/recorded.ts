@@ -63,6 +63,10 @@ export class Recorded {
     this.#arrivals?.askNow();
   }
 
+  dispose(): void {
+    this.#arrivals?.dispose();
+  }
+
   /** What was recorded, or the models. What was made is never shown as recorded: where a record has not come there is nothing. */
   show(isRecord: boolean): void {
     if (this.#arrivals === null) return;
