@@ -11,6 +11,8 @@ export interface CacheCalls<K, T> {
   load(key: K): Promise<T | null>;
   cost(value: T): number;
   dispose(value: T): void;
+  /** Nobody waits any longer for what is on its way; true where it will not come then. */
+  cancel?(key: K): boolean;
 }
 
 export class BoundedCache<K, T> {
@@ -45,6 +47,7 @@ export class BoundedCache<K, T> {
     const entry = this.#entries.get(key);
     if (entry === undefined) return;
     entry.users = Math.max(0, entry.users - 1);
+    if (entry.users === 0 && entry.value === null && this.#calls.cancel?.(key) === true) this.#entries.delete(key);
     this.#shrink();
   }
 

@@ -2,11 +2,16 @@
 import { Asking, type Missing, PAGE, type Surroundings } from "./asking.ts";
 import { Absent, type Fault, faultOf } from "./fault.ts";
 
+/** A browser holds six connections to a server of HTTP/1.1. */
+const AT_ONCE = 6;
+
 export interface Wish {
   /** Comes when the file was asked for once, whether it is there or not. */
   readonly tried: Promise<void>;
   /** Nobody wants it any more: it is not named, nor asked for again. What is underway is taken all the same. */
   drop(): void;
+  /** Whether it is asked for now, or as soon as others have come. */
+  readonly isUnderway: boolean;
 }
 
 interface Open {
@@ -20,6 +25,9 @@ export class Wishes {
   readonly #open = new Set<Open>();
   readonly #asking: Asking;
   readonly #onChange: () => void;
+  /** Those that are asked for as soon as others have come. */
+  readonly #queue: (() => void)[] = [];
+  #loading = 0;
   #waiting = 0;
 
   /** `onChange` is called when a file has come, or has not. */
@@ -64,6 +72,9 @@ export class Wishes {
       drop: () => {
         if (this.#open.delete(wish) && wish.fault !== null) this.#onChange();
       },
+      get isUnderway() {
+        return wish.isUnderway;
+      },
     };
   }
 
@@ -75,15 +86,22 @@ export class Wishes {
   async #try(wish: Open): Promise<void> {
     wish.isUnderway = true;
     this.#waiting += 1;
+    if (this.#loading >= AT_ONCE) await new Promise<void>((go) => this.#queue.push(go));
+    this.#loading += 1;
     try {
-      await wish.attempt();
-      this.#asking.succeeded();
+      // One may be dropped before its turn comes.
+      if (this.#open.has(wish)) {
+        await wish.attempt();
+        this.#asking.succeeded();
+      }
     } catch (error) {
       wish.fault = faultOf(error);
       // What is broken is as broken the next time.
       if (wish.fault instanceof Absent && this.#open.has(wish)) this.#asking.failed();
     }
     wish.isUnderway = false;
+    this.#loading -= 1;
+    this.#queue.shift()?.();
     this.#waiting -= 1;
     this.#onChange();
   }

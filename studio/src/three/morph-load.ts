@@ -70,7 +70,8 @@ export class MorphFiles {
 
   /** How many models and pictures are on their way. */
   get waiting(): number {
-    return this.#wishes.waiting;
+    const own = [...[...this.#wayWishes.values()].flat(), ...this.#pictureWishes.values()];
+    return own.filter(({ isUnderway }) => isUnderway).length;
   }
 
   /** On the card: models as they are, pictures with their smaller ones. */

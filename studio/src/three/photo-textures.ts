@@ -3,7 +3,7 @@ import { LinearFilter, LinearMipmapLinearFilter, SRGBColorSpace, Texture } from 
 import { BoundedCache } from "../core/bounded-cache.ts";
 import { Fault } from "../core/fault.ts";
 import { fileAddress, type Shot } from "../core/place.ts";
-import type { Wishes } from "../core/wishes.ts";
+import type { Wish, Wishes } from "../core/wishes.ts";
 import { fetchBytes } from "./fetch.ts";
 
 /** Longest sides: photos that come and go while one walks, and the one that is chosen. */
@@ -21,6 +21,8 @@ export class PhotoTextures {
   readonly #most_px: number;
   readonly #wishes: Wishes;
   readonly #cache: BoundedCache<string, Texture<ImageBitmap>>;
+  /** Photos that have not come. */
+  readonly #open = new Map<string, { readonly wish: Wish; readonly giveUp: () => void }>();
 
   /** No photo is larger than `most_px`. `wishes` names the photos that do not come, and asks for them again: the place is there without them. */
   constructor(shots: readonly Shot[], manifest: URL, most_px: number, wishes: Wishes) {
@@ -30,6 +32,7 @@ export class PhotoTextures {
     this.#wishes = wishes;
     this.#cache = new BoundedCache(MOST_BYTES, {
       load: (key) => this.#load(key),
+      cancel: (key) => this.#cancel(key),
       cost: ({ image }) => BYTES_PER_PIXEL * image.width * image.height,
       dispose: (texture) => {
         texture.dispose();
@@ -62,8 +65,30 @@ export class PhotoTextures {
     const most_px = Math.min(side_px, this.#most_px);
     const load = async (): Promise<ImageBitmap> => await bitmapOf(shot, this.#manifest, most_px, "flipY");
     return await new Promise((resolve) => {
-      this.#wishes.bring(shot.picture, load, (bitmap) => resolve(textureOf(bitmap)));
+      let isWanted = true;
+      const wish = this.#wishes.bring(shot.picture, load, (bitmap) => {
+        if (!isWanted) {
+          bitmap.close();
+          return;
+        }
+        this.#open.delete(key);
+        resolve(textureOf(bitmap));
+      });
+      const giveUp = (): void => {
+        isWanted = false;
+        resolve(null);
+      };
+      this.#open.set(key, { wish, giveUp });
     });
+  }
+
+  /** Photos that one has walked past are not asked for until they come. */
+  #cancel(key: string): boolean {
+    const open = this.#open.get(key);
+    this.#open.delete(key);
+    open?.wish.drop();
+    open?.giveUp();
+    return open !== undefined;
   }
 }
 

@@ -76,4 +76,20 @@ describe("a bounded cache", () => {
     expect(things.every(({ gone }) => gone)).toBe(true);
     expect(cache.size).toBe(0);
   });
+
+  it("does not wait for what nobody wants any more", async () => {
+    const give: ((value: string | null) => void)[] = [];
+    const load = async (): Promise<string | null> => await new Promise((resolve) => give.push(resolve));
+    const cancel = (): boolean => {
+      give[0]?.(null);
+      return true;
+    };
+    const cache = new BoundedCache<string, string>(10, { load, cancel, cost: () => 1, dispose: () => undefined });
+    const first = cache.acquire("a");
+    cache.release("a");
+    const second = cache.acquire("a"); // of one that comes back it is loaded anew
+    expect([await first, give.length]).toEqual([null, 2]);
+    give[1]?.("a");
+    expect([await second, cache.size]).toEqual(["a", 1]);
+  });
 });

@@ -84,6 +84,20 @@ describe("a file that is wished for", () => {
     expect([load.mock.calls.length, taken]).toEqual([2, ["here"]]);
   });
 
+  it("waits for its turn where many are wished for, and is not asked for where it is dropped before", async () => {
+    const { all } = wishes();
+    const slow: ((answer: string) => void)[] = [];
+    const load = vi.fn(async () => await new Promise<string>((resolve) => slow.push(resolve)));
+    const many = Array.from({ length: 8 }, (_, k) => all.bring(`${k}.webp`, load, () => undefined));
+    expect([load.mock.calls.length, all.waiting, many[7]?.isUnderway]).toEqual([6, 8, true]);
+    many[6]?.drop();
+    slow[0]?.("here");
+    await vi.waitFor(() => expect(load).toHaveBeenCalledTimes(7));
+    for (const come of slow.slice(1)) come("here");
+    await Promise.all(many.map(async ({ tried }) => await tried));
+    expect([load.mock.calls.length, all.waiting, many[7]?.isUnderway]).toEqual([7, 0, false]);
+  });
+
   it("is named where it comes but cannot be taken", async () => {
     const { all } = wishes();
     const take = (): void => {
