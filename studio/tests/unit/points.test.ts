@@ -60,7 +60,7 @@ describe("a cloud of points", () => {
     const read = await new PointReader(() => help).read(ply(large), cloud);
     expect(help.asked).toEqual([1]);
     expect(columnsOf(read)).toEqual(columnsOf(readPoints(ply(large), cloud)));
-  });
+  }, 30_000);
 
   it("is read at once where it is small, and here where there is no worker", async () => {
     const help = helpHere();
