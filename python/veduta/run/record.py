@@ -11,7 +11,7 @@ import hashlib
 import os
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeVar
 
 from pydantic import (
     AfterValidator,
@@ -28,6 +28,7 @@ from veduta.run.atomic import write_bytes
 from veduta.run.errors import InputError
 from veduta.run.report import Failure
 
+T = TypeVar("T")
 PRIVATE = ".veduta"
 CALL = "."
 """The item that stands for the call as a whole: the files that lie in OUT itself."""
@@ -94,7 +95,10 @@ class RunRecord(_Record):
 
     def save(self, out: Path) -> None:
         """Write the record whole or not at all."""
-        content = (self.model_dump_json(by_alias=True, indent=1) + "\n").encode()
+        # By name: what is made at once is done in another order each time.
+        ordered = {"items": _by_name(self.items), "files": _by_name(self.files)}
+        told = self.model_copy(update=ordered)
+        content = (told.model_dump_json(by_alias=True, indent=1) + "\n").encode()
         write_bytes(out / PRIVATE / RECORD, content)
         self._saved = hashlib.sha256(content).hexdigest()
         (out / PRIVATE / JOURNAL).unlink(missing_ok=True)
@@ -181,3 +185,7 @@ def _changes(journal: Path, digest: str) -> Iterator[Change]:
                         yield Change.model_validate_json(line)
     except FileNotFoundError:
         return
+
+
+def _by_name(given: dict[str, T]) -> dict[str, T]:
+    return dict(sorted(given.items()))

@@ -90,3 +90,17 @@ def test_no_journal_is_left_behind(tmp_path: Path) -> None:
     found = load_record(tmp_path)
     assert found is not None
     assert (set(found.items), set(found.files)) == ({"a"}, {"a/x.txt", "b/x.txt"})
+
+
+def test_what_was_done_in_another_order_is_the_same_record(tmp_path: Path) -> None:
+    """Processes that work at once are not done in an order of theirs."""
+    written = []
+    for names in ("abc", "cab"):
+        out = tmp_path / names
+        (out / ".veduta").mkdir(parents=True)
+        record = RunRecord(command="c", key="k")
+        for name in names:
+            record.apply(Change(items={name: item("done")}, files={f"{name}/x": name}))
+        record.save(out)
+        written.append((out / ".veduta" / "run.json").read_bytes())
+    assert written[0] == written[1]
