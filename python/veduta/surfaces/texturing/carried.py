@@ -52,7 +52,7 @@ def carry_texture(
     keys, corner = np.unique(faces * len(found.lows) + island[:, None], return_inverse=True)
     vertex, own = keys // len(found.lows), keys % len(found.lows)
     places = _places(mesh, found, points[vertex], own, rule)
-    height, width = _size(mesh)
+    height, width = found.texture.pixels.shape[:2]
     normals = vertex_normals(points, faces)[vertex]
     return replace(
         Mesh.simple(
@@ -66,14 +66,6 @@ def carry_texture(
         features=mesh.features,
         triangle_feature=mesh.triangle_feature[nearest],
     )
-
-
-def _size(mesh: Mesh) -> tuple[int, int]:
-    texture = mesh.materials[0].texture
-    if texture is None:
-        raise ValueError(f"mesh {mesh.id!r} has no texture")
-    height, width = texture.pixels.shape[:2]
-    return height, width
 
 
 def _nearest(mesh: Mesh, middles: Floats) -> NDArray[np.intp]:
@@ -95,8 +87,6 @@ def _places(
     apart = 4.0 * max(float(np.ptp(given, axis=0).max()), float(np.ptp(points, axis=0).max()), 1e-9)
     # Islands are apart along a fourth axis: what is nearest is of the same one.
     tree = cKDTree(np.column_stack([given, apart * found.of_vertex]))
-    height, width = _size(mesh)
-    known = np.asarray(mesh.uv, dtype=np.float64) * [width, height]
     many = min(rule.beside, len(given))
     places = np.empty((len(points), 2))
     for first in range(0, len(points), rule.at_once):
@@ -105,7 +95,7 @@ def _places(
         reach, index = tree.query(asked, k=many)
         near = np.asarray(index).reshape(-1, many)
         own = np.asarray(reach).reshape(-1, many) < 0.75 * apart
-        places[some] = _mapped(points[some], given[near], known[near], own, rule.calm)
+        places[some] = _mapped(points[some], given[near], found.places[near], own, rule.calm)
     lows, highs = found.lows[island] - rule.beyond_px, found.highs[island] + rule.beyond_px
     return np.clip(places, lows, highs)
 

@@ -27,8 +27,12 @@ class IslandParameters:
 
 @dataclass(frozen=True, eq=False)
 class Islands:
-    """of_vertex: (v,) the island of each vertex. lows, highs: (k, 2) px of their boxes."""
+    """texture: in which they lie. places: (v, 2) px of each vertex in it. of_vertex: (v,) the
+    island of each vertex. lows, highs: (k, 2) px of their boxes.
+    """
 
+    texture: Texture
+    places: Floats
     of_vertex: NDArray[np.int64]
     lows: Floats
     highs: Floats
@@ -51,7 +55,7 @@ def islands_of(mesh: Mesh) -> Islands:
     lows, highs = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     np.minimum.at(lows, of_vertex, places)
     np.maximum.at(highs, of_vertex, places)
-    return Islands(of_vertex, lows, highs)
+    return Islands(texture, places, of_vertex, lows, highs)
 
 
 def own_texture(
@@ -65,9 +69,7 @@ def own_texture(
     """
     rule = parameters or IslandParameters()
     found = islands_of(mesh)
-    texture = mesh.materials[0].texture
-    if mesh.uv is None or texture is None:
-        raise ValueError(f"mesh {mesh.id!r} has no texture")
+    texture = found.texture
     area = float(np.prod(found.highs - found.lows, axis=1).sum())
     share = min(share, largest_px / max(np.sqrt(area), 1e-9))
     while share >= rule.least_share:
@@ -87,10 +89,8 @@ def own_texture(
         pixels[y : y + high, x : x + wide] = _resized(part.pixels, wide, high)
         mask = part.invented.astype(np.float32)
         invented[y : y + high, x : x + wide] = _resized(mask, wide, high) > 0.5
-    old = texture.pixels.shape[:2]
     own = found.of_vertex
-    places = mesh.uv.astype(np.float64) * [old[1], old[0]]
-    moved = corners[own] + (places - lows[own]) * (boxes / sizes)[own]
+    moved = corners[own] + (found.places - lows[own]) * (boxes / sizes)[own]
     look = replace(mesh.materials[0], texture=replace(texture, pixels=pixels, invented=invented))
     return replace(mesh, uv=(moved / [width, height]).astype(np.float32), materials=(look,))
 
