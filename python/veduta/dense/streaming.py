@@ -74,9 +74,9 @@ def content_of(mesh: Mesh, level: Level, parameters: LevelParameters) -> Mesh:
     That of a plainer piece is at most `picture_px` a side: of four pieces it has the same spots
     with half of the pixels along a side. TooLargeError where the picture has no room for them.
     """
-    piece = part_of(mesh, level.triangles)
     if mesh.uv is None or mesh.materials[0].texture is None:
-        return level.plain or piece
+        return level.plain or part_of(mesh, level.triangles)
+    piece = part_of(mesh, level.triangles)
     if level.plain is None:
         return own_texture(piece, 1.0, MOST_WEBP_PX)
     shown = carry_texture(piece, level.plain.positions_m, level.plain.triangles)
