@@ -97,10 +97,10 @@ def test_how_wide_one_with_legs_is(kind: str, wide: float, turned: bool) -> None
         disc(forward, 0.16, 0.015)
         disc(forward, -0.16, 0.015)
     seen = mask[:, ::-1] if turned else mask
-    found, across = rounded(plan, SecondView((seen > 0,), "above.png"), SecondLooks())
+    found, is_sure = rounded(plan, SecondView((seen > 0,), "above.png"), SecondLooks())
     assert found.parts[0].round == pytest.approx(wide, rel=0.12)
     assert found.parts[1:] == plan.parts[1:]
-    assert across.is_sure
+    assert is_sure
 
 
 def test_what_is_nowhere_as_thick_as_a_body_is_none() -> None:

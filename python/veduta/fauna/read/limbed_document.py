@@ -57,10 +57,10 @@ FROM_THE_SIDE = "one view does not show how wide the animal is: the plan's round
 
 def with_second_view(animal: LimbedAnimal, second: SecondView) -> LimbedAnimal:
     """The animal whose body is as round as the second view shows it; its limbs stay as planned."""
-    plan, across = rounded(animal.plan, second, SecondLooks())
+    plan, is_sure = rounded(animal.plan, second, SecondLooks())
     doubts = [one for one in animal.doubts if one not in (FROM_ABOVE, FROM_THE_SIDE)]
     doubts.append("the second view was taken for the body; how round its limbs are is the plan's")
-    if not across.is_sure:
+    if not is_sure:
         doubts.append("which end of the second view is the head is not clear")
     return animal.model_copy(update={"plan": plan, "widths": "measured", "doubts": doubts})
 

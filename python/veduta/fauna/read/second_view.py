@@ -78,10 +78,9 @@ def thickness(view: SecondView, beside: Floats, looks: SecondLooks) -> Across:
     return Across(half, float(np.clip(1.0 - spread, 0.0, 1.0)), margin >= looks.sure)
 
 
-def rounded(plan: BodyPlan, view: SecondView, looks: SecondLooks) -> tuple[BodyPlan, Across]:
-    """The plan with its body as wide (or high) for its thickness as the second view shows it.
-
-    `half` of the second result is that of the body's part of the silhouette, from the nose.
+def rounded(plan: BodyPlan, view: SecondView, looks: SecondLooks) -> tuple[BodyPlan, bool]:
+    """The plan with its body as wide (or high) for its thickness as the second view shows it, and
+    whether it is clear where the head is there.
     """
     body = plan.parts[0]
     forward = np.array([point[0] for point in body.points])
@@ -90,15 +89,18 @@ def rounded(plan: BodyPlan, view: SecondView, looks: SecondLooks) -> tuple[BodyP
     low, high = _ends(plan)
     places = np.linspace(forward.min(), forward[:-1].max(), _STEPS)
     own = np.interp(places, forward[order], deep[order])
+    shares = (places - low) / (high - low)
     fits = []
     for mask in view.masks:
+        half = _across(mask, looks)
+        at = (np.arange(len(half)) + 0.5) / len(half)
         for turned in (False, True):
-            wide = _across(mask, looks, (places - low) / (high - low), turned) * (high - low)
+            wide = np.interp(shares, at, half[::-1] if turned else half) * (high - low)
             ratio = wide / own
             middle = float(np.median(ratio))
             # Laid the wrong way round the body may lie where there is but a tail.
             spread = float(np.median(np.abs(ratio - middle))) / middle if middle > 0.0 else np.inf
-            fits.append((spread, middle, turned, wide))
+            fits.append((spread, middle, turned))
     ways = np.median(np.array([fit[0] for fit in fits]).reshape(-1, 2), axis=0)
     if not np.isfinite(ways).any():
         raise NotFoundError(
@@ -107,16 +109,11 @@ def rounded(plan: BodyPlan, view: SecondView, looks: SecondLooks) -> tuple[BodyP
             "Give a silhouette of the whole animal from the other side.",
         )
     best = int(ways.argmin())
-    chosen = [fit for fit in fits if fit[2] == bool(best)]
-    ratio = float(
-        np.clip(np.median([fit[1] for fit in chosen]), 1 / looks.roundest, looks.roundest)
-    )
+    middles = [middle for _, middle, turned in fits if turned == bool(best)]
+    ratio = float(np.clip(np.median(middles), 1 / looks.roundest, looks.roundest))
     parts = (body.model_copy(update={"round": round(ratio, 4)}), *plan.parts[1:])
     apart = float(ways[1 - best] - ways[best])
-    half = np.median([fit[3][::-1] for fit in chosen], axis=0)
-    score = float(np.clip(1.0 - ways[best], 0.0, 1.0))
-    found = Across(np.asarray(half), score, apart >= looks.sure)
-    return plan.model_copy(update={"parts": list(parts)}), found
+    return plan.model_copy(update={"parts": list(parts)}), apart >= looks.sure
 
 
 def _in_lengths(axis: Axis) -> Floats:
@@ -141,8 +138,8 @@ def _ends(plan: BodyPlan) -> tuple[float, float]:
     return low, high
 
 
-def _across(mask: Mask, looks: SecondLooks, shares: Floats, turned: bool) -> Floats:
-    """Half of how thick the body is at shares of the animal's extent, in shares of that extent.
+def _across(mask: Mask, looks: SecondLooks) -> Floats:
+    """(n,) half of how thick the body is, from end to end of the animal, in shares of its extent.
 
     The silhouette is laid along its main axis; limbs are taken off by what is as thick as the body.
     """
@@ -158,14 +155,10 @@ def _across(mask: Mask, looks: SecondLooks, shares: Floats, turned: bool) -> Flo
     upright = np.asarray(cv2.warpAffine(mask.astype(np.uint8), turn, (side, side))) > 0
     columns = np.flatnonzero(upright.any(axis=0))
     if not len(columns):
-        return np.zeros(len(shares))  # thinner than a pixel
+        return np.zeros(1)  # thinner than a pixel
     first, last = int(columns[0]), int(columns[-1]) + 1
     reach = float(cv2.distanceTransform(upright.astype(np.uint8), cv2.DIST_L2, 5).max())
     size = 2 * max(1, round(looks.limbs * reach)) + 1
     disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))
     body = cv2.morphologyEx(upright.astype(np.uint8), cv2.MORPH_OPEN, disc)
-    half = 0.5 * body[:, first:last].sum(axis=0).astype(np.float64) / (last - first)
-    if turned:
-        half = half[::-1]
-    places = (np.arange(len(half)) + 0.5) / len(half)
-    return np.asarray(np.interp(shares, places, half))
+    return np.asarray(0.5 * body[:, first:last].sum(axis=0).astype(np.float64) / (last - first))
