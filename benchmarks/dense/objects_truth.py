@@ -12,7 +12,6 @@ import argparse
 import os
 import tempfile
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +19,7 @@ from made_objects import TABLE_M, ObjectScene, cameras_around
 from numpy.typing import NDArray
 from record import Row, keep_or_print
 from scipy.spatial import cKDTree
-from sgbm_chain import sgbm_points
-from synthetic_truth import FOCAL, HEIGHT, WIDTH, Floats, finer, ours, peers, scores, write_set
+from synthetic_truth import FOCAL, HEIGHT, WIDTH, Floats, finer, makers, scores, write_set
 
 from veduta.synthetic.camera import Camera
 
@@ -66,16 +64,8 @@ def measured(seed: int, peer: Path | None) -> list[Row]:
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / "set"
         write_set(folder, cameras, photos)
-        makers: dict[str, Callable[[], Floats]] = {
-            "veduta dense": lambda: ours(folder, folder.parent / "a", "patchmatch"),
-            "veduta dense --method linking": lambda: ours(folder, folder.parent / "b", "linking"),
-            "OpenCV StereoSGBM": lambda: sgbm_points(cameras, photos, REACH_M, alpha=-1.0),
-        }
-        if peer is not None:
-            makers["pyarchinit-photogrammetry-core"] = lambda: peers(
-                peer, folder, cameras, photos, REACH_M
-            )
-        for name, make in makers.items():
+        ways = makers(folder, cameras, photos, peer, REACH_M, alpha=-1.0)
+        for name, make in ways.items():
             began, used = time.perf_counter(), time.process_time()
             points = make()
             times = time.perf_counter() - began, time.process_time() - used

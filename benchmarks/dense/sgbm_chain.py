@@ -14,8 +14,8 @@ Floats = NDArray[np.float64]
 def sgbm_points(
     cameras: list[Camera],
     photos: list[NDArray[np.uint8]],
-    reach_m: tuple[float, float] = (4.0, 14.0),
-    alpha: float = 0.0,
+    reach_m: tuple[float, float],
+    alpha: float,
 ) -> Floats:
     """(n, 3) points of all pairs of neighbours, each way back within a pixel. reach_m: depths.
 

@@ -156,7 +156,7 @@ def peers(
     folder: Path,
     cameras: list[Camera],
     photos: list[NDArray[np.uint8]],
-    reach_m: tuple[float, float] = (4.0, 14.0),
+    reach_m: tuple[float, float],
 ) -> Floats:
     """The peer's points: pixels whose depths a neighbour has, too, within 1 %."""
     given, found = folder / "peer.npz", folder / "peer-depths.npz"
@@ -190,6 +190,27 @@ def agreed_points(cameras: list[Camera], depths: NDArray[np.float32]) -> Floats:
     return np.concatenate(kept)
 
 
+def makers(
+    folder: Path,
+    cameras: list[Camera],
+    photos: list[NDArray[np.uint8]],
+    peer: Path | None,
+    reach_m: tuple[float, float] = (4.0, 14.0),
+    alpha: float = 0.0,
+) -> dict[str, Callable[[], Floats]]:
+    """The ways to points of a written set, by name. reach_m, alpha: those of `sgbm_points`."""
+    found: dict[str, Callable[[], Floats]] = {
+        "veduta dense": lambda: ours(folder, folder.parent / "a", "patchmatch"),
+        "veduta dense --method linking": lambda: ours(folder, folder.parent / "b", "linking"),
+        "OpenCV StereoSGBM": lambda: sgbm_points(cameras, photos, reach_m, alpha),
+    }
+    if peer is not None:
+        found["pyarchinit-photogrammetry-core"] = lambda: peers(
+            peer, folder, cameras, photos, reach_m
+        )
+    return found
+
+
 def main() -> None:
     """Render, reconstruct, compare, keep."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -206,18 +227,7 @@ def main() -> None:
         with tempfile.TemporaryDirectory() as scratch:
             folder = Path(scratch) / "set"
             write_set(folder, cameras, photos)
-            makers: dict[str, Callable[[], Floats]] = {
-                "veduta dense": lambda f=folder: ours(f, f.parent / "a", "patchmatch"),  # type: ignore[misc]
-                "veduta dense --method linking": lambda f=folder: ours(
-                    f, f.parent / "b", "linking"
-                ),  # type: ignore[misc]
-                "OpenCV StereoSGBM": lambda c=cameras, p=photos: sgbm_points(c, p),  # type: ignore[misc]
-            }
-            if given.peer is not None:
-                makers["pyarchinit-photogrammetry-core"] = (
-                    lambda f=folder, c=cameras, p=photos: peers(given.peer, f, c, p)  # type: ignore[misc]
-                )
-            for name, make in makers.items():
+            for name, make in makers(folder, cameras, photos, given.peer).items():
                 began = time.perf_counter()
                 points = make()
                 seconds = time.perf_counter() - began
