@@ -9,12 +9,12 @@ as grass are plants, and how many of the low plants are marked; the same for wha
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from record import Row, keep_or_print
+from walk_sets import DATA
 
 from veduta.walk.build.local_model import LocalModel, build_local_model
 from veduta.walk.build.moving import find_moving
@@ -27,12 +27,6 @@ VEGETATION, TERRAIN, MOVES = 70, 72, (252, 260)
 FARTHEST_M = 30.0
 LOW_M = -1.3
 """Of the scanner, which stands 1.7 m above the road."""
-
-
-def data() -> Path:
-    """The folder of all records."""
-    given = os.environ.get("VEDUTA_DATA")
-    return Path(given) if given else Path(__file__).resolve().parents[3] / "shared" / "data"
 
 
 def rows_of(path: Path) -> dict[str, NDArray[np.float64]]:
@@ -107,10 +101,10 @@ def _against(
 def main() -> None:
     """Measure, and keep the table."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--data", type=Path, default=None)
+    parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--keep", action="store_true")
     given = parser.parse_args()
-    folder = (given.data or data()) / "laser" / "kitti00"
+    folder = given.data / "laser" / "kitti00"
     rows = [measured(folder, frame) for frame in FRAMES]
     notes = [
         "laser/kitti00, points within 30 m; plants: SemanticKITTI's vegetation and terrain.",
