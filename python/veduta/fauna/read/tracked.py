@@ -215,12 +215,12 @@ def _body(
         median = np.nanmedian(half, axis=0) / usual
         apart = np.nanmedian(np.abs(half / usual - median), axis=0).mean()
         score = float(np.clip(1.0 - apart / max(median.mean(), 1e-9), 0.0, 1.0))
-        width = np.maximum(np.interp(places, _even(median), median), _THINNEST)
+        width = np.maximum(np.interp(places, _even(len(median)), median), _THINNEST)
         widths = "measured"
     height = width * ratio
     if second is not None:
         across = thickness(second, np.interp(_even(SAMPLES), places, width), SecondLooks())
-        height = np.maximum(np.interp(places, _even(across.half), across.half), _THINNEST)
+        height = np.maximum(np.interp(places, _even(len(across.half)), across.half), _THINNEST)
         heights = "measured"
         score = across.score if half is None else min(score, across.score)
         if not across.is_sure:
@@ -237,6 +237,6 @@ def _body(
     return Body(slices=found, widths=widths, heights=heights, score=score), doubts
 
 
-def _even(along: Floats | int) -> Floats:
-    """Equal steps from head to tail, as many as there are values."""
-    return np.linspace(0.0, 1.0, along if isinstance(along, int) else len(along))
+def _even(count: int) -> Floats:
+    """So many equal steps from head to tail."""
+    return np.linspace(0.0, 1.0, count)
