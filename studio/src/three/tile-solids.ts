@@ -4,7 +4,6 @@ import { fillTriangles, type Piece } from "../core/triangles.ts";
 import { type Help, Helper, hired } from "./hired.ts";
 import { Solid } from "./solid.ts";
 import type { Asked, Grown } from "./soup-worker.ts";
-import type { TileModel } from "./tile-model.ts";
 
 /** Those of so many tiles are kept. */
 const MOST_SOLIDS = 6;
@@ -20,22 +19,22 @@ export class TileSolids {
     this.#helper = new Helper(hire);
   }
 
-  /** At once: of a tile that nobody has grown ahead, too. Its scene hangs in the town. */
-  of(scene: Object3D, model: TileModel): Solid {
+  /** At once: of a tile that nobody has grown ahead, too. `piecesOf` is asked for its faces where they are wanted. */
+  of(scene: Object3D, piecesOf: () => Piece[]): Solid {
     const known = this.#solids.get(scene);
     if (known !== undefined) return known;
-    const pieces = model.pieces();
+    const pieces = piecesOf();
     const positions = new Float32Array(9 * facesOf(pieces));
     fillTriangles(pieces, positions);
     return this.#keep(scene, solidOf(positions, null));
   }
 
-  /** Grows the solid of a tile to which somebody is on his way. Its scene hangs in the town. */
-  growAhead(scene: Object3D, model: TileModel): void {
+  /** Grows the solid of a tile to which somebody is on his way. `piecesOf` is asked for its faces where they are wanted. */
+  growAhead(scene: Object3D, piecesOf: () => Piece[]): void {
     // Without a worker it is made when it is needed: its faces are not even copied before.
-    if (this.#solids.has(scene) || this.#growing.has(scene) || !this.#helper.isThere) return;
+    if (this.has(scene) || !this.#helper.isThere) return;
     this.#growing.add(scene);
-    void this.#helper.ask({ pieces: model.pieces(), more: NOTHING }).then((grown) => {
+    void this.#helper.ask({ pieces: piecesOf(), more: NOTHING }).then((grown) => {
       // What was dropped or grown meanwhile is not wanted.
       if (!this.#growing.delete(scene) || grown === null || this.#solids.has(scene)) return;
       this.#keep(scene, solidOf(grown.positions, grown.tree));

@@ -360,7 +360,7 @@ export class Town implements Obstacles {
       new Vector3(feet[0] + body.radius_m, feet[1] + body.radius_m, feet[2] + body.height_m),
     );
     for (const [scene, { model }] of this.#within(reach)) {
-      yield this.#inPlace(scene, () => this.#solids.of(scene, model));
+      yield this.#solids.of(scene, () => this.#inPlace(scene, () => model.pieces()));
     }
   }
 
@@ -383,7 +383,7 @@ export class Town implements Obstacles {
     const away = ({ box }: Loaded): number => box?.distanceToPoint(at) ?? 0;
     // The nearest few alone: more than are kept would push each other out, and be grown anew for each picture.
     for (const [scene, { model }] of [...this.#within(reach)].sort(([, a], [, b]) => away(a) - away(b)).slice(0, MOST_AHEAD)) {
-      if (!this.#solids.has(scene)) this.#inPlace(scene, () => this.#solids.growAhead(scene, model));
+      this.#solids.growAhead(scene, () => this.#inPlace(scene, () => model.pieces()));
     }
   }
 

@@ -69,16 +69,16 @@ describe("the solids of tiles", () => {
     const whole = new Solid(model.soup(null));
     const help = helpHere();
     const ahead = new TileSolids(() => help);
-    ahead.growAhead(model.scene, model);
-    ahead.growAhead(model.scene, model);
+    ahead.growAhead(model.scene, () => model.pieces());
+    ahead.growAhead(model.scene, () => model.pieces());
     expect(help.asked).toBe(1);
     help.answer();
     await settled();
-    const here = new TileSolids(() => null).of(model.scene, model);
+    const here = new TileSolids(() => null).of(model.scene, () => model.pieces());
     const pieces = vi.spyOn(model, "pieces");
-    expect(ahead.of(model.scene, model).faceCount).toBe(5);
+    expect(ahead.of(model.scene, () => model.pieces()).faceCount).toBe(5);
     expect(pieces).not.toHaveBeenCalled(); // it is the worker's
-    for (const solid of [here, ahead.of(model.scene, model)]) {
+    for (const solid of [here, ahead.of(model.scene, () => model.pieces())]) {
       expect(solid.bounds).toEqual(whole.bounds);
       for (const [x, y] of [[14, 4.9], [11.2, 2.9], [30, 4]] as const) {
         expect(solid.pushOut([x, y, 0], BODY)).toEqual(whole.pushOut([x, y, 0], BODY));
@@ -90,11 +90,11 @@ describe("the solids of tiles", () => {
     const model = tile();
     const help = helpHere();
     const solids = new TileSolids(() => help);
-    solids.growAhead(model.scene, model);
-    const own = solids.of(model.scene, model);
+    solids.growAhead(model.scene, () => model.pieces());
+    const own = solids.of(model.scene, () => model.pieces());
     help.answer();
     await settled();
-    expect(solids.of(model.scene, model)).toBe(own);
+    expect(solids.of(model.scene, () => model.pieces())).toBe(own);
     solids.drop(model.scene);
     expect(solids.has(model.scene)).toBe(false);
   });
@@ -103,14 +103,14 @@ describe("the solids of tiles", () => {
     const model = tile();
     const pieces = vi.spyOn(model, "pieces");
     const solids = new TileSolids(() => null);
-    solids.growAhead(model.scene, model);
+    solids.growAhead(model.scene, () => model.pieces());
     expect([pieces.mock.calls.length, solids.has(model.scene)]).toEqual([0, false]);
   });
 
   it("are kept of the last few alone", () => {
     const solids = new TileSolids(() => null);
     const all = Array.from({ length: 8 }, tile);
-    for (const model of all) solids.of(model.scene, model);
+    for (const model of all) solids.of(model.scene, () => model.pieces());
     expect(all.map(({ scene }) => solids.has(scene))).toEqual([false, false, true, true, true, true, true, true]);
   });
 });
