@@ -8,6 +8,8 @@ export interface Missing {
   readonly fault: Fault;
 }
 
+/** A browser holds six connections to a server of HTTP/1.1. */
+export const AT_ONCE = 6;
 const FIRST_PAUSE_MS = 2000;
 const LONGEST_PAUSE_MS = 60_000;
 

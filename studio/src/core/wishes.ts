@@ -1,9 +1,6 @@
 /** Files that are wished for while one looks about: what does not come is named, and asked for again until it is there. */
-import { Asking, type Missing, PAGE, type Surroundings } from "./asking.ts";
+import { Asking, AT_ONCE, type Missing, PAGE, type Surroundings } from "./asking.ts";
 import { Absent, type Fault, faultOf } from "./fault.ts";
-
-/** A browser holds six connections to a server of HTTP/1.1. */
-const AT_ONCE = 6;
 
 export interface Wish {
   /** Comes when the file was asked for once, whether it is there or not. */

@@ -1,5 +1,5 @@
 /** The parts of a place on their way: several at once, what is seen and near first; what fails is asked for again. */
-import { Asking, type Missing, PAGE, type Surroundings } from "../core/asking.ts";
+import { Asking, AT_ONCE, type Missing, PAGE, type Surroundings } from "../core/asking.ts";
 import { Absent, type Fault, faultOf } from "../core/fault.ts";
 import { worldPoint } from "../core/frames.ts";
 import { boxOfPoints, cornersOf } from "../core/framing.ts";
@@ -9,8 +9,6 @@ import { length, scale, subtract, add, type Vec3 } from "../core/vector.ts";
 
 /** What is not seen comes after all that is. */
 const UNSEEN_M = 1e9;
-/** A browser holds six connections to a server of HTTP/1.1. */
-const AT_ONCE = 6;
 
 export class Arrivals {
   readonly #parts: readonly Part[];
