@@ -15,7 +15,6 @@ interface Open {
   readonly file: string;
   readonly attempt: () => Promise<void>;
   fault: Fault | null;
-  isUnderway: boolean;
 }
 
 export class Wishes {
@@ -25,7 +24,8 @@ export class Wishes {
   /** Those that are asked for as soon as others have come. */
   readonly #queue: (() => void)[] = [];
   #loading = 0;
-  #waiting = 0;
+  /** Those that are asked for, or in the queue; of them some may be dropped. */
+  readonly #underway = new Set<Open>();
 
   /** `onChange` is called when a file has come, or has not. */
   constructor(onChange: () => void, around: Surroundings = PAGE) {
@@ -35,7 +35,7 @@ export class Wishes {
 
   /** Files on their way. */
   get waiting(): number {
-    return this.#waiting;
+    return this.#underway.size;
   }
 
   /** Each once, however often it is wished for. */
@@ -55,7 +55,6 @@ export class Wishes {
     const wish: Open = {
       file,
       fault: null,
-      isUnderway: false,
       attempt: async () => {
         const brought = await load();
         wish.fault = null;
@@ -64,13 +63,14 @@ export class Wishes {
       },
     };
     this.#open.add(wish);
+    const underway = this.#underway;
     return {
       tried: this.#try(wish),
       drop: () => {
         if (this.#open.delete(wish) && wish.fault !== null) this.#onChange();
       },
       get isUnderway() {
-        return wish.isUnderway;
+        return underway.has(wish);
       },
     };
   }
@@ -81,8 +81,7 @@ export class Wishes {
   }
 
   async #try(wish: Open): Promise<void> {
-    wish.isUnderway = true;
-    this.#waiting += 1;
+    this.#underway.add(wish);
     if (this.#loading >= AT_ONCE) await new Promise<void>((go) => this.#queue.push(go));
     this.#loading += 1;
     try {
@@ -96,14 +95,13 @@ export class Wishes {
       // What is broken is as broken the next time.
       if (wish.fault instanceof Absent && this.#open.has(wish)) this.#asking.failed();
     }
-    wish.isUnderway = false;
+    this.#underway.delete(wish);
     this.#loading -= 1;
     this.#queue.shift()?.();
-    this.#waiting -= 1;
     this.#onChange();
   }
 
   #askAgain(): void {
-    for (const wish of [...this.#open]) if (wish.fault instanceof Absent && !wish.isUnderway) void this.#try(wish);
+    for (const wish of [...this.#open]) if (wish.fault instanceof Absent && !this.#underway.has(wish)) void this.#try(wish);
   }
 }
