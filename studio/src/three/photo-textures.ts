@@ -5,6 +5,7 @@ import { Fault } from "../core/fault.ts";
 import { fileAddress, type Shot } from "../core/place.ts";
 import type { Wish, Wishes } from "../core/wishes.ts";
 import { fetchBytes } from "./fetch.ts";
+import { sizeWithin } from "./limited-image.ts";
 
 /** Longest sides: photos that come and go while one walks, and the one that is chosen. */
 export const PASSING_PX = 1536;
@@ -100,12 +101,12 @@ export async function bitmapOf(
   imageOrientation: "flipY" | "from-image",
 ): Promise<ImageBitmap> {
   const bytes = await fetchBytes(fileAddress(shot.picture, manifest), shot.picture, () => undefined);
-  const share = Math.min(1, side_px / Math.max(shot.width_px, shot.height_px));
+  const { width, height } = sizeWithin(shot.width_px, shot.height_px, side_px);
   try {
     return await createImageBitmap(new Blob([bytes]), {
       imageOrientation,
-      resizeWidth: Math.max(1, Math.round(share * shot.width_px)),
-      resizeHeight: Math.max(1, Math.round(share * shot.height_px)),
+      resizeWidth: width,
+      resizeHeight: height,
       resizeQuality: "medium",
     });
   } catch {
