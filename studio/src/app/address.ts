@@ -4,7 +4,7 @@ import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import { readView, writeView } from "../core/view-link.ts";
 import type { Commands } from "./commands.ts";
-import type { Session } from "./session.ts";
+import { ownerOf, type Session } from "./session.ts";
 
 /** The address follows when the view has been still for so long. */
 const STILL_MS = 400;
@@ -94,19 +94,14 @@ export class Address {
     const { selected } = this.#store.value;
     if (selected === null) return this.#awaited;
     const id = this.#session.tables[selected.part]?.rows[selected.row]?.id;
-    return id === undefined ? null : `${this.#ownerOf(selected)}/${id}`;
-  }
-
-  /** The part, or the building in a streamed place: ids are of one of them alone. */
-  #ownerOf(ref: FeatureRef): string {
-    return this.#session.town === null ? (this.#session.place.parts[ref.part]?.id ?? "") : this.#session.nameOf(ref);
+    return id === undefined ? null : `${ownerOf(this.#session, selected)}/${id}`;
   }
 
   /** A link may name the id alone: then it is the first of that id. */
   #refOf(picked: string): FeatureRef | null {
     for (const [part, table] of this.#session.tables.entries()) {
       if (!this.#isNew(table)) continue;
-      const row = rowNamed(table, picked, (at) => this.#ownerOf({ part, row: at }));
+      const row = rowNamed(table, picked, (at) => ownerOf(this.#session, { part, row: at }));
       if (row !== null) return { part, row };
     }
     return null;

@@ -14,7 +14,7 @@ import type { Vec3 } from "../core/vector.ts";
 import { roomTitle } from "../core/whereabouts.ts";
 import type { ViewerStats } from "../three/viewer.ts";
 import type { Commands, Told } from "./commands.ts";
-import type { Session } from "./session.ts";
+import { ownerOf, type Session } from "./session.ts";
 
 export interface Inspection {
   /** Does what a key, a button or a panel would; told what the command of that name is told. */
@@ -62,8 +62,7 @@ declare global {
 
 export function inspect(session: Session, store: Store<StudioState>, commands: Commands): Inspection {
   const { viewer, place, tables } = session;
-  const name = (part: number, row = 0): string =>
-    session.town === null ? (place.parts[part]?.id ?? "") : session.nameOf({ part, row });
+  const name = (part: number, row = 0): string => ownerOf(session, { part, row });
   return {
     do: (name, told) => commands.do(name, told),
     state: () => ({

@@ -217,6 +217,11 @@ async function open(
   };
 }
 
+/** The part, or the building in a streamed place: ids are of one of them alone. */
+export function ownerOf(session: Session, ref: FeatureRef): string {
+  return session.town === null ? (session.place.parts[ref.part]?.id ?? "") : session.nameOf(ref);
+}
+
 /** At the beginning of a walk; whoever wants less motion goes from view to view at once. */
 export function strollFrom(which: number): MorphState {
   const instant = matchMedia("(prefers-reduced-motion: reduce)").matches;
