@@ -4,13 +4,7 @@ import { Grower } from "../../src/three/grower.ts";
 import type { Help } from "../../src/three/hired.ts";
 import { Solid } from "../../src/three/solid.ts";
 import { soupOf, type Soupable } from "../../src/three/soup.ts";
-import type { Asked, Grown } from "../../src/three/soup-worker.ts";
-
-interface Scope {
-  onmessage: (event: { data: Asked }) => void;
-  postMessage: (grown: Grown) => void;
-}
-const scope = globalThis as unknown as Scope;
+import { helpHere } from "./worker-here.ts";
 
 beforeAll(async () => {
   await import("../../src/three/soup-worker.ts");
@@ -33,26 +27,6 @@ function hills(n: number): Soupable {
   mesh.matrixWorld.copy(new Matrix4().makeRotationY(0.4).setPosition(3, 1, -2));
   const rowOfFace = Uint32Array.from({ length: faces.length / 3 }, (_, face) => face % 7);
   return { meshes: [{ mesh, faces: Uint32Array.from(faces), rowOfFace }], instanced: [] };
-}
-
-/** The real worker's program, called in this thread with copies, as between threads. */
-function helpHere(): Help & { readonly asked: number[] } {
-  const asked: number[] = [];
-  const help = {
-    asked,
-    onmessage: null as Help["onmessage"],
-    onerror: null as Help["onerror"],
-    onmessageerror: null as Help["onmessageerror"],
-    terminate: () => undefined,
-    postMessage: (message: Asked) => {
-      asked.push(message.id);
-      scope.postMessage = (grown) => {
-        help.onmessage?.call(undefined as never, { data: structuredClone(grown) } as MessageEvent);
-      };
-      scope.onmessage({ data: structuredClone(message) });
-    },
-  };
-  return help;
 }
 
 function same(a: Solid | null, b: Solid): void {

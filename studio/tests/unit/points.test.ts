@@ -1,14 +1,7 @@
 import type { BufferGeometry } from "three";
 import { beforeAll, describe, expect, it } from "vitest";
-import type { Help } from "../../src/three/hired.ts";
 import { PointReader, readPoints } from "../../src/three/points.ts";
-import type { Points, PointsAsked } from "../../src/three/points-worker.ts";
-
-interface Scope {
-  onmessage: (event: { data: PointsAsked }) => void;
-  postMessage: (points: Points) => void;
-}
-const scope = globalThis as unknown as Scope;
+import { helpHere } from "./worker-here.ts";
 
 beforeAll(async () => {
   await import("../../src/three/points-worker.ts");
@@ -26,26 +19,6 @@ function ply(points: number, told = points): ArrayBuffer {
     for (const channel of [0, 1, 2]) view.setUint8(15 * k + 12 + channel, (7 * k + channel) % 256);
   }
   return bytes.buffer;
-}
-
-/** The real worker's program, called in this thread with copies, as between threads. */
-function helpHere(): Help & { readonly asked: number[] } {
-  const asked: number[] = [];
-  const help = {
-    asked,
-    onmessage: null as Help["onmessage"],
-    onerror: null as Help["onerror"],
-    onmessageerror: null as Help["onmessageerror"],
-    terminate: () => undefined,
-    postMessage: (message: PointsAsked) => {
-      asked.push(message.id);
-      scope.postMessage = (points) => {
-        help.onmessage?.call(undefined as never, { data: structuredClone(points) } as MessageEvent);
-      };
-      scope.onmessage({ data: structuredClone(message) });
-    },
-  };
-  return help;
 }
 
 const columnsOf = ({ attributes }: BufferGeometry): unknown =>

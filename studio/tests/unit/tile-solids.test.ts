@@ -1,17 +1,10 @@
 import { BufferAttribute, BufferGeometry, Group, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial } from "three";
 import { beforeAll, describe, expect, it, vi } from "vitest";
 import { TileTable } from "../../src/core/tile-table.ts";
-import type { Help } from "../../src/three/hired.ts";
 import { Solid } from "../../src/three/solid.ts";
-import type { Asked, Grown } from "../../src/three/soup-worker.ts";
 import { TileModel } from "../../src/three/tile-model.ts";
 import { TileSolids } from "../../src/three/tile-solids.ts";
-
-interface Scope {
-  onmessage: (event: { data: Asked }) => void;
-  postMessage: (grown: Grown) => void;
-}
-const scope = globalThis as unknown as Scope;
+import { helpHere } from "./worker-here.ts";
 
 beforeAll(async () => {
   await import("../../src/three/soup-worker.ts");
@@ -35,29 +28,6 @@ function tile(): TileModel {
   return new TileModel(scene, table);
 }
 
-/** The real worker's program; it answers when the test says so. */
-function helpHere(): Help & { answer: () => void; asked: number } {
-  let waiting: Asked | null = null;
-  const help = {
-    asked: 0,
-    onmessage: null as Help["onmessage"],
-    onerror: null as Help["onerror"],
-    onmessageerror: null as Help["onmessageerror"],
-    terminate: () => undefined,
-    postMessage: (message: Asked) => {
-      help.asked += 1;
-      waiting = structuredClone(message);
-    },
-    answer: () => {
-      scope.postMessage = (grown) => {
-        help.onmessage?.call(undefined as never, { data: structuredClone(grown) } as MessageEvent);
-      };
-      if (waiting !== null) scope.onmessage({ data: waiting });
-    },
-  };
-  return help;
-}
-
 /** All that follows from an answer has happened. */
 async function settled(): Promise<void> {
   await new Promise((resolve) => setTimeout(resolve));
@@ -67,11 +37,11 @@ describe("the solids of tiles", () => {
   it("are those of all faces, whether grown here or in a worker", async () => {
     const model = tile();
     const whole = new Solid(model.soup(null));
-    const help = helpHere();
+    const help = helpHere("when told");
     const ahead = new TileSolids(() => help);
     ahead.growAhead(model.scene, () => model.pieces());
     ahead.growAhead(model.scene, () => model.pieces());
-    expect(help.asked).toBe(1);
+    expect(help.asked).toEqual([1]);
     help.answer();
     await settled();
     const here = new TileSolids(() => null).of(model.scene, () => model.pieces());
@@ -88,7 +58,7 @@ describe("the solids of tiles", () => {
 
   it("are there at once where nobody has grown them, and the worker's is not wanted then", async () => {
     const model = tile();
-    const help = helpHere();
+    const help = helpHere("when told");
     const solids = new TileSolids(() => help);
     solids.growAhead(model.scene, () => model.pieces());
     const own = solids.of(model.scene, () => model.pieces());
