@@ -6,6 +6,7 @@ import type { Part } from "../../src/core/place.ts";
 import { Arrivals } from "../../src/three/arrivals.ts";
 import type { PartSlot } from "../../src/three/part-slot.ts";
 import { type Bringing, Recorded, type Wiped } from "../../src/three/recorded.ts";
+import { Fake } from "./surroundings.ts";
 
 function slot(raw: string | null): { slot: PartSlot; model: Object3D } {
   const [group, model] = [new Object3D(), new Object3D()];
@@ -13,23 +14,6 @@ function slot(raw: string | null): { slot: PartSlot; model: Object3D } {
   const worldFromPart = new Matrix4().toArray();
   const part = { model: "a.glb", raw, worldFromPart, bounds: null, isGround: false, isBackdrop: false };
   return { slot: { part, group } as unknown as PartSlot, model };
-}
-
-/** Pauses end when the test says so. */
-class Pauses implements Surroundings {
-  #then: (() => void) | null = null;
-  after(_pause_ms: number, then: () => void): () => void {
-    this.#then = then;
-    return () => (this.#then = null);
-  }
-  onNetwork(): () => void {
-    return () => undefined;
-  }
-  end(): void {
-    const then = this.#then;
-    this.#then = null;
-    then?.();
-  }
 }
 
 const during =
@@ -64,7 +48,7 @@ describe("what was recorded", () => {
       return await Promise.resolve([record]);
     };
     let changes = 0;
-    const recorded = new Recorded([one], load, () => (changes += 1), during(new Pauses()));
+    const recorded = new Recorded([one], load, () => (changes += 1), during(new Fake()));
     recorded.show(false);
     expect(asked).toEqual([]);
     recorded.fetch();
@@ -93,7 +77,7 @@ describe("what was recorded", () => {
     const without = slot(null);
     let asked = 0;
     const load = async (): Promise<Object3D[]> => await Promise.resolve(Array.from({ length: (asked += 1) }, () => new Object3D()));
-    const recorded = new Recorded([without.slot], load, () => undefined, during(new Pauses()));
+    const recorded = new Recorded([without.slot], load, () => undefined, during(new Fake()));
     recorded.fetch();
     await later();
     recorded.show(true);
@@ -108,7 +92,7 @@ describe("what was recorded", () => {
       if (!isThere) throw new Absent("raw/b.glb", "not there", "");
       return await Promise.resolve([record]);
     };
-    const pauses = new Pauses();
+    const pauses = new Fake();
     const recorded = new Recorded([lost.slot], load, () => undefined, during(pauses));
     recorded.fetch();
     await later();
@@ -116,7 +100,7 @@ describe("what was recorded", () => {
     expect(recorded.missing.map(({ file }) => file)).toEqual(["raw/b.glb"]);
     expect(lost.model.visible).toBe(false);
     isThere = true;
-    pauses.end();
+    pauses.wait();
     await later();
     recorded.show(true);
     expect([recorded.missing.length, record.visible, lost.model.visible]).toEqual([0, true, false]);
@@ -130,11 +114,11 @@ describe("what was recorded", () => {
       asked += 1;
       return await Promise.reject(new Fault("raw/c.glb", "it is cut short", ""));
     };
-    const pauses = new Pauses();
+    const pauses = new Fake();
     const recorded = new Recorded([slot("raw/c.glb").slot], load, () => undefined, during(pauses));
     recorded.fetch();
     await later();
-    pauses.end();
+    pauses.wait();
     recorded.askNow();
     recorded.fetch();
     await later();
