@@ -11,7 +11,7 @@ export class Grower {
   readonly #helper: Helper<Asked, Grown>;
 
   /** `hire` starts a worker; null where there can be none. */
-  constructor(hire: () => Help | null = startWorker) {
+  constructor(hire: () => Help | null = hireForSolids) {
     this.#helper = new Helper(hire);
   }
 
@@ -30,6 +30,7 @@ export class Grower {
   }
 }
 
-function startWorker(): Help | null {
+/** A worker that makes what a solid is made of. */
+export function hireForSolids(): Help | null {
   return hired(() => new Worker(new URL("./soup-worker.ts", import.meta.url), { type: "module" }));
 }

@@ -1,7 +1,8 @@
 /** What one bumps into in a town: solids of the tiles near by, grown in a worker before one gets there. */
 import type { Object3D } from "three";
 import { fillTriangles, type Piece } from "../core/triangles.ts";
-import { type Help, Helper, hired } from "./hired.ts";
+import { hireForSolids } from "./grower.ts";
+import { type Help, Helper } from "./hired.ts";
 import { Solid } from "./solid.ts";
 import type { Asked, Grown } from "./soup-worker.ts";
 
@@ -15,7 +16,7 @@ export class TileSolids {
   readonly #helper: Helper<Asked, Grown>;
 
   /** `hire` starts a worker; null where there can be none. */
-  constructor(hire: () => Help | null = startWorker) {
+  constructor(hire: () => Help | null = hireForSolids) {
     this.#helper = new Helper(hire);
   }
 
@@ -77,8 +78,4 @@ function solidOf(positions: Float32Array, tree: Grown["tree"] | null): Solid {
   const count = positions.length / 9;
   const owners = new Uint32Array(count);
   return new Solid({ positions, partOfFace: owners, rowOfFace: owners, firstBoxFace: count, instances: [] }, null, tree);
-}
-
-function startWorker(): Help | null {
-  return hired(() => new Worker(new URL("./soup-worker.ts", import.meta.url), { type: "module" }));
 }
