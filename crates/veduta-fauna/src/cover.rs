@@ -163,7 +163,7 @@ struct Laid {
 }
 
 /// What a capsule is at the places of a block.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 struct Felt {
     segment: usize,
     inside: Lanes,
@@ -173,17 +173,6 @@ struct Felt {
     /// and, for its length, with its first end the other way.
     thicker: [Lanes; 2],
     taper: Lanes,
-}
-
-impl Felt {
-    const NOTHING: Self = Self {
-        segment: 0,
-        inside: [0.0; LANES],
-        share: [0.0; LANES],
-        away: [[0.0; LANES]; 2],
-        thicker: [[0.0; LANES]; 2],
-        taper: [0.0; LANES],
-    };
 }
 
 fn laid(capsules: &Capsules<'_>, pose: &[[f32; 2]], soft: f32) -> Vec<Laid> {
@@ -220,7 +209,7 @@ fn one_frame(
     let capsule = laid(capsules, pose, looked.soft);
     let area = shares.iter().sum::<f32>().max(1.0);
     let slope = -2.0 / (looked.soft * area);
-    let mut near = vec![Felt::NOTHING; capsule.len()];
+    let mut near = vec![Felt::default(); capsule.len()];
     let mut loss = 0.0f64;
     for (block, own) in blocks.iter().zip(shares.chunks(LANES)) {
         let mut share = [0.0; LANES];
