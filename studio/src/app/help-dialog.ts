@@ -1,8 +1,8 @@
 /** Keys and gestures, from the same table that the page obeys. */
-import { css, html, LitElement, type TemplateResult } from "lit";
+import { css, html, type TemplateResult } from "lit";
 import { COMMAND_BINDINGS, HOLD_BINDINGS } from "../core/input.ts";
 import { icons } from "./icons.ts";
-import { theme } from "./theme.ts";
+import { Modal } from "./modal.ts";
 
 const GESTURES: readonly { readonly shown: string; readonly text: string }[] = [
   { shown: "Click", text: "What is this surface?" },
@@ -11,19 +11,14 @@ const GESTURES: readonly { readonly shown: string; readonly text: string }[] = [
   { shown: "Right drag", text: "Move the place sideways" },
 ];
 
-export class HelpDialog extends LitElement {
+export class HelpDialog extends Modal {
   static override styles = [
-    theme,
+    ...Modal.styles,
     css`
       dialog {
         width: min(760px, calc(100vw - 32px));
-        max-height: calc(100dvh - 32px);
         padding: 28px 32px 32px;
-        border: 0;
         border-radius: 18px;
-        background: #fdfdfb;
-        color: inherit;
-        box-shadow: 0 24px 80px rgb(20 30 40 / 0.35);
       }
       dialog::backdrop {
         background: rgb(25 38 50 / 0.42);
@@ -68,21 +63,8 @@ export class HelpDialog extends LitElement {
     `,
   ];
 
-  get #dialog(): HTMLDialogElement | null {
-    return this.renderRoot.querySelector("dialog");
-  }
-
-  get isOpen(): boolean {
-    return this.#dialog?.open ?? false;
-  }
-
-  toggle(): void {
-    if (this.isOpen) this.#dialog?.close();
-    else this.#dialog?.showModal();
-  }
-
   override render(): TemplateResult {
-    return html`<dialog aria-labelledby="title" @click=${(event: Event) => this.#onClick(event)}>
+    return html`<dialog aria-labelledby="title" @click=${(event: Event) => this.onClick(event)}>
       <div class="head">
         <h2 id="title">Looking and walking</h2>
         <button class="icon-button" aria-label="Close the help" @click=${() => this.toggle()}>${icons.close}</button>
@@ -100,10 +82,6 @@ export class HelpDialog extends LitElement {
         </div>
       </div>
     </dialog>`;
-  }
-
-  #onClick(event: Event): void {
-    if (event.target === this.#dialog) this.toggle();
   }
 }
 

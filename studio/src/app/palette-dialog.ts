@@ -1,9 +1,9 @@
 /** All commands by their names: type to find one, Enter does it. */
-import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { css, html, nothing, type TemplateResult } from "lit";
 import { type Entry, matching } from "../core/palette.ts";
-import { theme } from "./theme.ts";
+import { Modal } from "./modal.ts";
 
-export class PaletteDialog extends LitElement {
+export class PaletteDialog extends Modal {
   static override properties = { entries: { attribute: false }, typed: { state: true }, active: { state: true } };
   declare entries: readonly Entry[];
   declare typed: string;
@@ -11,18 +11,13 @@ export class PaletteDialog extends LitElement {
   declare active: number;
 
   static override styles = [
-    theme,
+    ...Modal.styles,
     css`
       dialog {
         width: min(520px, calc(100vw - 32px));
-        max-height: calc(100dvh - 32px);
         margin-top: min(12vh, 96px);
         padding: 14px;
-        border: 0;
         border-radius: 16px;
-        background: #fdfdfb;
-        color: inherit;
-        box-shadow: 0 24px 80px rgb(20 30 40 / 0.35);
       }
       dialog::backdrop {
         background: rgb(25 38 50 / 0.28);
@@ -86,22 +81,10 @@ export class PaletteDialog extends LitElement {
     this.active = 0;
   }
 
-  get #dialog(): HTMLDialogElement | null {
-    return this.renderRoot.querySelector("dialog");
-  }
-
-  get isOpen(): boolean {
-    return this.#dialog?.open ?? false;
-  }
-
-  toggle(): void {
-    if (this.isOpen) {
-      this.#dialog?.close();
-      return;
-    }
+  protected override open(): void {
     this.typed = "";
     this.active = 0;
-    this.#dialog?.showModal();
+    super.open();
     this.renderRoot.querySelector("input")?.select();
   }
 
@@ -116,7 +99,7 @@ export class PaletteDialog extends LitElement {
   override render(): TemplateResult {
     const found = this.#found;
     const isNothing = found.length === 0;
-    return html`<dialog aria-label="Commands" @click=${(event: Event) => this.#onClick(event)}>
+    return html`<dialog aria-label="Commands" @click=${(event: Event) => this.onClick(event)}>
       <input type="text" role="combobox" aria-label="Find a command" placeholder="Find a command" autocomplete="off" spellcheck="false"
         aria-expanded="true" aria-controls="found" aria-autocomplete="list" aria-activedescendant=${isNothing ? nothing : `command-${this.active}`}
         .value=${this.typed} @input=${(event: Event) => this.#onInput(event)} @keydown=${(event: KeyboardEvent) => this.#onKey(event)} />
@@ -149,12 +132,8 @@ export class PaletteDialog extends LitElement {
 
   #do(entry: Entry | undefined): void {
     if (entry === undefined) return;
-    this.#dialog?.close();
+    this.dialog?.close();
     this.dispatchEvent(new CustomEvent("command", { detail: entry.name }));
-  }
-
-  #onClick(event: Event): void {
-    if (event.target === this.#dialog) this.toggle();
   }
 }
 
