@@ -14,19 +14,16 @@ from __future__ import annotations
 import argparse
 import json
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from own_places import KINDS, own_places
+from own_places import KINDS, VEDUTA, own_places
 from record import Row, record
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
-
-VEDUTA = Path(sys.executable).parent / "veduta"
 
 
 @contextmanager
