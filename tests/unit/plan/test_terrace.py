@@ -229,6 +229,19 @@ def test_party_walls_of_a_court_have_no_row_beyond_them() -> None:
     assert terrain_of(house.spaces[0], 0.0).plot.bounds == own_plot(house.spaces[0].slab, []).bounds
 
 
+def test_a_side_in_two_walls_ends_at_the_farther_one() -> None:
+    corners = [(0, 8), (0, 0), (10, 0), (10, 4), (10.3, 4), (10.3, 8)]
+    junctions = [Junction(id=f"j{index}", at_m=at, type="L") for index, at in enumerate(corners)]
+    walls = [
+        wall(f"w{index}", f"j{index}", f"j{(index + 1) % 6}", party=index in (0, 2, 4))
+        for index in range(6)
+    ]
+    document = changed(junctions=junctions, walls=walls, rooms=[], openings=[])
+    left, right = parties_of(build_house(document, HouseOptions()).spaces[0])
+    assert left.face_m @ left.out == pytest.approx(HALF)
+    assert right.face_m @ right.out == pytest.approx(10.3 + HALF)
+
+
 def test_the_plot_ends_at_the_neighbours() -> None:
     document = with_terrace(sample_plan(), ASKED, by_text=False)
     house = build_house(document, terrace_options(document, ASKED))

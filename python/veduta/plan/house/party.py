@@ -76,11 +76,11 @@ def _all_parties(space: Space) -> list[Party]:
         if space.slab.covers(Point(middle + (line.half_m + 0.1) * out)):
             out = -out
         face = middle + line.half_m * out
-        same = next((one for one in found if one.out @ out > _ALIKE), None)
+        same = next((row for row, one in enumerate(found) if one.out @ out > _ALIKE), None)
         if same is None:
             found.append(Party(face, out))
-        elif (face - same.face_m) @ same.out > 0.0:
-            found[found.index(same)] = Party(face, same.out)
+        elif (face - found[same].face_m) @ found[same].out > 0.0:
+            found[same] = Party(face, found[same].out)
     return found
 
 
