@@ -180,6 +180,10 @@ def test_what_a_file_says_of_the_rig(tmp_path: Path) -> None:
             config(cam_from_rig_rotation=[2, 0, 0, 0], cam_from_rig_translation=[0, 0, 0]),
             "no unit quaternion",
         ),
+        (
+            config(cam_from_rig_rotation=[1, 0, 0, 0], cam_from_rig_translation=[np.nan, 0, 0]),
+            "has no pose for right",
+        ),
         (config(ref_sensor=True).replace("right/", "up/"), "where the camera right is"),
     ],
 )

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
+from veduta.formats.colmap_model import pose
 from veduta.photos.intake.source import Mount, Source
 from veduta.run.errors import InputError
 
@@ -84,18 +85,12 @@ def _pose(path: Path, name: str, camera: _RigCamera) -> NDArray[np.float64]:
         fault = f"says neither that {name} is the reference, nor its rotation and translation"
         remedy = "Give ref_sensor, or cam_from_rig_rotation and cam_from_rig_translation."
         raise InputError(path, fault, remedy)
-    w, x, y, z = camera.cam_from_rig_rotation
-    length = float(np.linalg.norm((w, x, y, z)))
+    rotation = np.array(camera.cam_from_rig_rotation)
+    length = float(np.linalg.norm(rotation))
     if not 0.9 < length < 1.1:
         fault = f"has a rotation of {name} that is no unit quaternion (length {length:.3g})"
         raise InputError(path, fault, "Write it as w x y z with length 1.")
-    w, x, y, z = (value / length for value in (w, x, y, z))
-    rotation = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.column_stack([rotation, camera.cam_from_rig_translation])
+    return pose(path, name, rotation, np.array(camera.cam_from_rig_translation))
 
 
 def camera_folders(folder: Path, suffixes: frozenset[str]) -> list[Path]:
