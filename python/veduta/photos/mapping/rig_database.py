@@ -58,9 +58,11 @@ def _write_frames(
     frame_of: Mapping[int, int],
     rig: int,
 ) -> None:
-    for number in sorted(set(frame_of.values())):
+    members: dict[int, list[int]] = {}
+    for image, number in frame_of.items():
+        members.setdefault(number, []).append(image)
+    for number, own in sorted(members.items()):
         frame = pycolmap.Frame(frame_id=number, rig_id=rig)
-        for image, own in frame_of.items():
-            if own == number:
-                frame.add_data_id(images[image].data_id)
+        for image in own:
+            frame.add_data_id(images[image].data_id)
         opened.write_frame(frame, use_frame_id=True)
