@@ -7,7 +7,7 @@ know of rigs.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,18 +41,7 @@ def rigs_among(
     waiting = sorted({camera for images in frames.values() for camera in images})
     found = []
     while waiting:
-        known = {waiting[0]: np.eye(3, 4)}
-        grown = True
-        while grown:
-            grown = False
-            for images in frames.values():
-                for camera in [*images]:
-                    bases = [other for other in images if other in known]
-                    if camera in known or not bases:
-                        continue
-                    tie = between(poses[images[bases[0]]], poses[images[camera]])
-                    known[camera] = after(tie, known[bases[0]])
-                    grown = True
+        known = _tied_to(waiting[0], list(frames.values()), poses)
         waiting = [camera for camera in waiting if camera not in known]
         own = {
             number: tuple(sorted(image for camera, image in images.items() if camera in known))
@@ -62,6 +51,26 @@ def rigs_among(
         if len(known) > 1:
             found.append(RigFound({camera: known[camera] for camera in sorted(known)}, own))
     return found
+
+
+def _tied_to(
+    first: int, frames: Sequence[Mapping[int, int]], poses: Mapping[int, Floats]
+) -> dict[int, Floats]:
+    """(3, 4) cam_from_rig of all cameras that frames tie to the first, which is the rig's.
+
+    frames: the image id by camera id, of each.
+    """
+    known = {first: np.eye(3, 4)}
+    count = 0
+    while count < len(known):
+        count = len(known)
+        for images in frames:
+            for camera in images:
+                base = next((other for other in images if other in known), None)
+                if base is not None and camera not in known:
+                    tie = between(poses[images[base]], poses[images[camera]])
+                    known[camera] = after(tie, known[base])
+    return known
 
 
 def rig_of(number: int, cam_from_rig: Mapping[int, Floats]) -> pycolmap.Rig:
