@@ -11,7 +11,7 @@ and false. So what counts are the matches that a homography does not explain.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -94,7 +94,7 @@ def weighed_pairs(database: Path, image_ids: Sequence[int], seed: int) -> list[W
     """
     with pycolmap.Database.open(database) as opened:
         cameras = {image: _camera_of(opened, image) for image in image_ids}
-        frame_of = {image: frame for frame, image in _frames(opened)}
+        frame_of = _frame_of(opened)
         counted = [
             (first, second, count)
             for first, second, count in _counted(opened, set(image_ids))
@@ -152,11 +152,13 @@ def _camera_of(opened: pycolmap.Database, image: int) -> pycolmap.Camera:
     return opened.read_camera(opened.read_image(image).camera_id)
 
 
-def _frames(opened: pycolmap.Database) -> Iterator[tuple[int, int]]:
-    """The frame and the image id of each photo: those of one frame of a rig begin no map."""
-    for frame in opened.read_all_frames():
-        for data in frame.data_ids:
-            yield int(frame.frame_id), int(data.id)
+def _frame_of(opened: pycolmap.Database) -> dict[int, int]:
+    """The frame of each photo, by image id: those of one frame of a rig begin no map."""
+    return {
+        int(data.id): int(frame.frame_id)
+        for frame in opened.read_all_frames()
+        for data in frame.data_ids
+    }
 
 
 def _counted(opened: pycolmap.Database, images: set[int]) -> list[tuple[int, int, int]]:
