@@ -87,32 +87,17 @@ def signs_at(
     runs. parapet: how unlike the uppermost storey is. None where a side shows too little.
     """
     p = parameters or SignParameters()
-    unit, width = fronts.storey, fronts.evidence.width
-    strip = max(4, round(p.strip * unit))
-    left, right = slice(max(0, x - strip), x), slice(x, min(width, x + strip))
-    if min(_shown(fronts, left), _shown(fronts, right)) < p.seen * strip:
+    unit = fronts.storey
+    left, right = strips = _strips(fronts, x, p.strip)
+    if min(_shown(fronts, left), _shown(fronts, right)) < p.seen * max(4, round(p.strip * unit)):
         return None
     a, b = _beside(fronts, x, p.reach * unit)
     if not len(a) or not len(b):
         return None
-    colour, light = _walls(fronts, left, right, p)
-    bay = max(4, round(p.bay * unit))
-    wide = slice(max(0, x - bay), x), slice(x, min(width, x + bay))
-    roof = abs(float(np.median(fronts.top[left])) - float(np.median(fronts.top[right])))
-    classes, parapet = _classes(fronts, *wide)
-    return np.array(
-        [
-            min(_apart(a, b), _apart(b, a)) / (0.2 * unit),
-            _sizes(a, b) / 0.25,
-            colour / 10.0,
-            light / 10.0,
-            _unlike(fronts, left, right, p),
-            classes,
-            roof / (0.5 * unit),
-            _line(fronts, x, p),
-            parapet,
-        ]
-    )
+    classes, parapet = _classes(fronts, *_strips(fronts, x, p.bay))
+    rows = min(_apart(a, b), _apart(b, a)) / (0.2 * unit)
+    sizes = _sizes(a, b) / 0.25
+    return np.array([rows, sizes, *_of_walls(fronts, x, strips, classes, p), parapet])
 
 
 def edge_signs(
@@ -124,25 +109,34 @@ def edge_signs(
     border may be narrow. None where it shows too little.
     """
     p = parameters or SignParameters()
-    unit, width = fronts.storey, fronts.evidence.width
-    strip = max(4, round(p.strip * unit))
-    left, right = slice(max(0, x - strip), x), slice(x, min(width, x + strip))
-    outer = left if is_left else right
+    strips = _strips(fronts, x, p.strip)
+    outer = strips[0] if is_left else strips[1]
     if _shown(fronts, outer) < max(3.0, 0.5 * p.seen * (outer.stop - outer.start)):
         return None
-    colour, light = _walls(fronts, left, right, p)
-    classes, _ = _classes(fronts, left, right)
-    roof = abs(float(np.median(fronts.top[left])) - float(np.median(fronts.top[right])))
-    return np.array(
-        [
-            colour / 10.0,
-            light / 10.0,
-            _unlike(fronts, left, right, p),
-            classes,
-            roof / (0.5 * unit),
-            _line(fronts, x, p),
-        ]
-    )
+    classes, _ = _classes(fronts, *strips)
+    return np.array(_of_walls(fronts, x, strips, classes, p))
+
+
+def _strips(fronts: Fronts, x: int, storeys: float) -> tuple[slice, slice]:
+    """The columns left and right of one, so many storeys wide where the picture is."""
+    strip = max(4, round(storeys * fronts.storey))
+    return slice(max(0, x - strip), x), slice(x, min(fronts.evidence.width, x + strip))
+
+
+def _of_walls(
+    fronts: Fronts, x: int, strips: tuple[slice, slice], classes: float, p: SignParameters
+) -> list[float]:
+    """The six signs that need no windows, of which the classes are known."""
+    colour, light = _walls(fronts, *strips, p)
+    left, right = (float(np.median(fronts.top[strip])) for strip in strips)
+    return [
+        colour / 10.0,
+        light / 10.0,
+        _unlike(fronts, *strips, p),
+        classes,
+        abs(left - right) / (0.5 * fronts.storey),
+        _line(fronts, x, p),
+    ]
 
 
 def _shown(fronts: Fronts, span: slice) -> float:
