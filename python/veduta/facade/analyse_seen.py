@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -93,15 +92,10 @@ class _Front:
         """(h, w) the chance that something stands before the front, at the same size."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), *BEFORE)
 
-    def panes_from(self, left: int) -> Callable[[Box], bool]:
+    def is_pane(self, box: Box, left: int) -> bool:
         """Whether a box that counts from a column is a pane of glass, which has no arched head."""
-
-        def is_pane(box: Box) -> bool:
-            x0, y1 = float(box.x + left), float(box.y + box.height)
-            one = SeenElement(box.kind, x0, float(box.y), x0 + box.width, y1, box.score)
-            return self.glass is not None and self.glass.replaces(one)
-
-        return is_pane
+        x, y = left + box.x + 0.5 * box.width, box.y + 0.5 * box.height
+        return self.glass is not None and self.glass.has(box.kind, x, y)
 
     def between(self, left: int, right: int) -> list[SeenElement]:
         """The elements between two columns of the evidence, from the left one on."""
@@ -282,8 +276,9 @@ def _read(
     with timed_step(steps, "openings") as step:
         columns = columns_of(elements)
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)
-        panes = front.panes_from(sides.left)
-        boxes = [*with_heads([b for b in boxes if not panes(b)], inner.lab), *filter(panes, boxes)]
+        panes = [box for box in boxes if front.is_pane(box, sides.left)]
+        others = [box for box in boxes if not front.is_pane(box, sides.left)]
+        boxes = [*with_heads(others, inner.lab), *panes]
         above = len(storeys.floors.boundaries) - 1
         before = front.hidden[: inner.height, sides.left : sides.right]
         hidden = hidden_windows(boxes, columns, above, before)

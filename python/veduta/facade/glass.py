@@ -78,12 +78,15 @@ class Glass:
 
     def replaces(self, one: SeenElement) -> bool:
         """Whether an element is a part of the glass that was taken for a window."""
-        x, y = 0.5 * (one.x0 + one.x1), 0.5 * (one.y0 + one.y1)
+        return self.has(one.kind, 0.5 * (one.x0 + one.x1), 0.5 * (one.y0 + one.y1))
+
+    def has(self, kind: str, x: float, y: float) -> bool:
+        """Whether what has its middle there is a part of the glass, and no door or the like."""
         left, top, right, bottom = self.bands.T
         slack = 0.5 * (self.storey - float(np.median(bottom - top)))
         across = (x >= left) & (x <= right)
         inside = across & (y >= top - slack) & (y <= bottom + slack)
-        return one.kind == "window" and bool(inside.any())
+        return kind == "window" and bool(inside.any())
 
 
 @dataclass(frozen=True)
