@@ -63,8 +63,7 @@ def without_margins(
     if len(windows) < HouseParameters().windows:
         return sides
     fronts = fronts_of(evidence, seen, windows, storey_of(windows))
-    first = float(np.percentile([e.x0 for e in windows], p.outliers))
-    last = float(np.percentile([e.x1 for e in windows], 100.0 - p.outliers))
+    first, last = outermost(windows, p)
     left = end_of(fronts, (sides.left, first), p)
     right = end_of(fronts, (sides.right, last), p)
     if left is None and right is None:
@@ -77,6 +76,12 @@ def without_margins(
     )
     kept = [one for one in sides.reasons if not one.startswith("sides:")]
     return replace(sides, left=moved[0], right=moved[1], reasons=(*kept, reason))
+
+
+def outermost(windows: Sequence[SeenElement], p: MarginParameters) -> tuple[float, float]:
+    """The columns at which the windows of a front begin and end, but for outliers."""
+    first = float(np.percentile([e.x0 for e in windows], p.outliers))
+    return first, float(np.percentile([e.x1 for e in windows], 100.0 - p.outliers))
 
 
 def end_of(
