@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from kept_lines import kept_of
 from logistic import likeliest
 from numpy.typing import NDArray
 from record import Row, keep_or_print
@@ -155,23 +156,12 @@ LEGEND = (
 def gathered(path: Path | None, most: int | None) -> list[Picture]:
     """The signs of all marked pictures, from the file where it has them."""
     marks = json.loads((HERE / "houses_marked.json").read_text("utf-8"))
-    known: dict[str, dict[str, object]] = {}
-    if path is not None and path.exists():
-        known = dict(json.loads(line) for line in path.read_text("utf-8").splitlines())
-    made = 0
-    for name in marks:
-        if name in known or (most is not None and made >= most):
-            continue
-        made += 1
-        known[name] = _signs_of(DATA / "facades/cmp" / f"{name}.jpg")
-        if path is not None:
-            with path.open("a", encoding="utf-8") as file:
-                file.write(json.dumps([name, known[name]]) + "\n")
-    return [_picture(name, known[name], marks[name]) for name in marks if known.get(name)]
+    known = kept_of(list(marks), path, most, _signs_of)
+    return [_picture(name, known[name], marks[name]) for name in known if known[name]]
 
 
-def _signs_of(path: Path) -> dict[str, object]:
-    pixels = read_image(path).pixels
+def _signs_of(name: str) -> dict[str, object]:
+    pixels = read_image(DATA / "facades/cmp" / f"{name}.jpg").pixels
     evidence, seen = gather(pixels, inside_photo(pixels)), look(pixels)
     size = evidence.width, evidence.height
     elements = in_crop(seen_elements(seen), evidence.px_per_rectified, 0, size)

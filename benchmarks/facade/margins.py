@@ -13,17 +13,18 @@ import argparse
 import json
 import os
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from kept_lines import kept_of
 from record import Row, keep_or_print
 
 from veduta.facade.evidence import gather
 from veduta.facade.eyes import look, seen_elements
 from veduta.facade.houses import HouseParameters, storey_of
-from veduta.facade.margins import MarginParameters, end_of
+from veduta.facade.margins import MarginParameters, end_of, outermost
 from veduta.facade.party_signs import fronts_of
 from veduta.facade.seen_boxes import in_crop
 from veduta.imaging.padding import inside_photo
@@ -46,7 +47,7 @@ def main() -> None:
     parser.add_argument("--draft", action="store_true", help="keep nothing")
     call = parser.parse_args()
     marks = json.loads((HERE / "houses_marked.json").read_text("utf-8"))
-    found = found_of(list(marks), call.kept, call.most)
+    found = kept_of(list(marks), call.kept, call.most, margins_of)
     unseen = set(list(marks)[UNSEEN])
     rows = [
         row_of("not looked at", [name for name in found if name in unseen], found, marks),
@@ -62,40 +63,30 @@ LEGEND = (
 )
 
 
-def found_of(names: Sequence[str], path: Path | None, most: int | None) -> dict[str, list[Margin]]:
-    """Both margins of each picture, from the file where it has them."""
-    known: dict[str, list[Margin]] = {}
-    if path is not None and path.exists():
-        known = dict(json.loads(line) for line in path.read_text("utf-8").splitlines())
-    for name in [one for one in names if one not in known][:most]:
-        known[name] = list(margins_of(DATA / "facades/cmp" / f"{name}.jpg"))
-        if path is not None:
-            with path.open("a", encoding="utf-8") as file:
-                file.write(json.dumps([name, known[name]]) + "\n")
-    return {name: known[name] for name in names if name in known}
-
-
-def margins_of(path: Path) -> Iterator[Margin]:
+def margins_of(name: str) -> list[Margin]:
     """The margins of a picture as shares of its width, and where the front ends in each."""
     p = MarginParameters()
-    pixels = read_image(path).pixels
+    pixels = read_image(DATA / "facades/cmp" / f"{name}.jpg").pixels
     evidence, seen = gather(pixels, inside_photo(pixels)), look(pixels)
     size = evidence.width, evidence.height
     elements = in_crop(seen_elements(seen), evidence.px_per_rectified, 0, size)
     windows = [e for e in elements if e.kind == "window" and e.score > p.seen]
     if len(windows) < HouseParameters().windows:
-        return
+        return []
     fronts = fronts_of(evidence, seen, windows, storey_of(windows))
-    first = float(np.percentile([e.x0 for e in windows], p.outliers))
-    last = float(np.percentile([e.x1 for e in windows], 100.0 - p.outliers))
+    first, last = outermost(windows, p)
+    found: list[Margin] = []
     for border, window in ((0, first), (evidence.width, last)):
         end = end_of(fronts, (border, window), p)
-        yield {
-            "border": border / evidence.width,
-            "window": window / evidence.width,
-            "storey": fronts.storey / evidence.width,
-            "end": None if end is None else end / evidence.width,
-        }
+        found.append(
+            {
+                "border": border / evidence.width,
+                "window": window / evidence.width,
+                "storey": fronts.storey / evidence.width,
+                "end": None if end is None else end / evidence.width,
+            }
+        )
+    return found
 
 
 def row_of(

@@ -20,6 +20,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from kept_lines import kept_of
 from record import Row, keep_or_print
 from style_fronts import TrueFront, true_front
 
@@ -62,7 +63,7 @@ def main() -> None:
         marks |= {f"{style} {seed}": {"roof": roof} for seed in seeds}
     for facade, seeds in GLASS.items():
         marks |= {f"modern-slab {seed} {facade}": {"roof": "unsure"} for seed in seeds}
-    found = read_all(list(marks), call.kept, call.most)
+    found = kept_of(list(marks), call.kept, call.most, _read)
     rows = [*_roofs(marks, found), *_arches(marks, found), *_glass(found)]
     keep_or_print("facade-roofs-arches", rows, [LEGEND, *_wrong(marks, found)], not call.draft)
 
@@ -76,19 +77,10 @@ LEGEND = (
 )
 
 
-def read_all(names: Sequence[str], path: Path | None, most: int | None) -> dict[str, Found]:
-    """What is read of each, from the file where it has it."""
-    known: dict[str, Found] = {}
-    if path is not None and path.exists():
-        known = dict(json.loads(line) for line in path.read_text("utf-8").splitlines())
-    for name in [one for one in names if one not in known][:most]:
-        known[name] = _found(read(name))
-        if " " in name:
-            known[name]["floors"] = floors_of(name)
-        if path is not None:
-            with path.open("a", encoding="utf-8") as file:
-                file.write(json.dumps([name, known[name]]) + "\n")
-    return {name: known[name] for name in names if name in known}
+def _read(name: str) -> Found:
+    """What is read of a picture; of a rendered one how many floors it has, too."""
+    found = _found(read(name))
+    return {**found, "floors": floors_of(name)} if " " in name else found
 
 
 def read(name: str) -> FacadeDocument | None:
