@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from veduta.plan.document import PlanDocument, Text
 from veduta.plan.options import HouseOptions
 
-_SURE = 0.8
+SURE = 0.8
 """Score of a text from which on it is believed."""
 _FLAT = re.compile(
     r"\b(?:flat(?!\s*roof)|apartment|apt|maisonette|condo(?:minium)?|wohnung|\w+zimmerwohnung"
@@ -26,7 +26,7 @@ def flat_named(texts: Iterable[Text]) -> str | None:
         (
             one.text
             for one in texts
-            if one.score >= _SURE and (_FLAT.search(one.text) or _ROOMS.search(one.text))
+            if one.score >= SURE and (_FLAT.search(one.text) or _ROOMS.search(one.text))
         ),
         None,
     )
@@ -44,8 +44,14 @@ def with_flat(document: PlanDocument, options: HouseOptions, *, by_text: bool) -
     if said is None:
         return document
     doubt = f"taken for a flat, without roof and garden of its own, as {said!r} is on the sheet."
+    return with_doubt(document, doubt).model_copy(update={"flat": True})
+
+
+def with_doubt(document: PlanDocument, doubt: str) -> PlanDocument:
+    """The document with one more doubt, which its first storey tells."""
+    (first, *more) = document.storeys
     told = first.model_copy(update={"doubts": [*first.doubts, doubt]})
-    return document.model_copy(update={"flat": True, "storeys": [told]})
+    return document.model_copy(update={"storeys": [told, *more]})
 
 
 def flat_options(document: PlanDocument, options: HouseOptions) -> HouseOptions:

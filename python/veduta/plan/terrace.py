@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import PlanDocument, Storey, Text, Wall
+from veduta.plan.flats import SURE, with_doubt
 from veduta.plan.options import HouseOptions
 
 Kind = Literal["mid", "end"]
 _THICK = "two sides across from each other are blank, and drawn much thicker than the others"
-_SURE = 0.8
-"""Score of a text from which on it is believed."""
 _END = re.compile(
     r"\b(?:end[\s-]*(?:of[\s-]*)?terraced?|semi[\s-]*detached|reihenend\w*|reiheneck\w*"
     r"|doppelhaush[aä]lfte|hoekwoning|twee[\s-]onder[\s-][eé]+n[\s-]kap|parhus|paritalo)\b",
@@ -33,6 +32,7 @@ _MID = re.compile(
     r"|(?:casa|vivienda)\s+adosada|maison\s+mitoyenne|murs?\s+mitoyens?|brandwand)\b",
     re.IGNORECASE,
 )
+_WORDS: tuple[tuple[Kind, re.Pattern[str]], ...] = (("end", _END), ("mid", _MID))
 _NOT_AFTER = re.compile(
     r"\b(?:roof|garden|sun|patio|pool|deck|balcony|dach|garten)[\s-]*$", re.IGNORECASE
 )
@@ -83,11 +83,11 @@ class Side:
 
 def terrace_named(texts: Iterable[Text]) -> tuple[Kind, str] | None:
     """What a sheet says by which it shows a house in a row, and which; None where it does not."""
-    sure = [one.text for one in texts if one.score >= _SURE]
-    for kind, words in (("end", _END), ("mid", _MID)):
+    sure = [one.text for one in texts if one.score >= SURE]
+    for kind, words in _WORDS:
         for text in sure:
             if _says(words, text):
-                return ("end" if kind == "end" else "mid"), text
+                return kind, text
     return None
 
 
@@ -128,7 +128,7 @@ def with_terrace(document: PlanDocument, options: HouseOptions, *, by_text: bool
     elif options.neighbours:
         doubts = ["--neighbours: nothing says that it stands in a row, so there are none."]
     for doubt in doubts:
-        document = _told(document, doubt)
+        document = with_doubt(document, doubt)
     return document
 
 
@@ -293,12 +293,6 @@ def _with_party(storey: Storey, sides: Sequence[Side], rows: Sequence[int]) -> S
         notes.append(f"closed, as they are in party walls: {', '.join(sorted(gone))}")
     changes = {"walls": walls, "openings": openings, "rooms": rooms, "notes": notes}
     return storey.model_copy(update=changes)
-
-
-def _told(document: PlanDocument, doubt: str) -> PlanDocument:
-    (first, *more) = document.storeys
-    told = first.model_copy(update={"doubts": [*first.doubts, doubt]})
-    return document.model_copy(update={"storeys": [told, *more]})
 
 
 def _name(out: NDArray[np.float64]) -> str:
