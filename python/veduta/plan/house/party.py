@@ -30,9 +30,14 @@ class Party:
     face_m: NDArray[np.float64]
     out: NDArray[np.float64]
 
+    @property
+    def along(self) -> NDArray[np.float64]:
+        """(2,) the direction of the walls, the way out to its right."""
+        return np.array([-self.out[1], self.out[0]])
+
     def beyond(self, more_m: float = 0.0) -> Polygon:
         """All that lies on the neighbour's side, from so far behind the face on."""
-        along = np.array([-self.out[1], self.out[0]])
+        along = self.along
         start = self.face_m + more_m * self.out
         corners = [
             start - _FAR_M * along,
@@ -103,7 +108,7 @@ def row_region(region: BaseGeometry, parties: Sequence[Party]) -> BaseGeometry:
 
 def neighbour_region(slab: BaseGeometry, party: Party, width_m: float) -> Polygon:
     """The ground of a blank house beside a side, as deep as this one is at that wall."""
-    along = np.array([-party.out[1], party.out[0]])
+    along = party.along
     near = pieces_of(slab.intersection(party.beyond(-0.5)))
     if not near:
         return Polygon()
