@@ -57,7 +57,7 @@ def place_drawn(
         if one.kind not in OBJECTS:
             continue
         if not any(
-            _stands(thing, layout)
+            takes_place(thing, layout)
             for kind in _types(one)
             for thing in _tries(one, kind, layout.space, choice, group)
         ):
@@ -104,33 +104,39 @@ def _tries(
     """The thing at its place, with its back to the wall that is near, and a little aside."""
     entry = choice.entry(kind)
     size = entry.sized(one.size_m[0])
-    front = np.array([math.sin(one.turn_rad), -math.cos(one.turn_rad)])
-    middle = np.asarray(one.at_m)
-    back, turn = middle - front * one.size_m[1] / 2, one.turn_rad
-    wall = wall_behind(middle, back, front, space)
+    front, back = _front_and_back(one)
+    turn, wall = one.turn_rad, wall_behind(one, space)
     if wall is not None:
         # Drawn lines are a little off: it stands as straight as its wall.
         front, turn = wall.inward, wall.turn
-        back = wall.at(float((middle - wall.start) @ wall.along), OFF_WALL_M)
+        back = wall.at(float((np.asarray(one.at_m) - wall.start) @ wall.along), OFF_WALL_M)
     aside = np.array([-front[1], front[0]])
     for shift in SHIFTS_M:
         x, y = (float(value) for value in back + front * size[1] / 2 + shift * aside)
         yield Stood(entry, size, (round(x, 4), round(y, 4)), turn, group=group, drawn=True)
 
 
-def wall_behind(middle: Vector, back: Vector, front: Vector, space: RoomSpace) -> Stretch | None:
-    """The wall that a thing stands against; None where none is near its back."""
+def _front_and_back(one: Fitting) -> tuple[Vector, Vector]:
+    """(2,) the way that what is drawn faces, and (2,) the middle of its back."""
+    front = np.array([math.sin(one.turn_rad), -math.cos(one.turn_rad)])
+    return front, np.asarray(one.at_m) - front * one.size_m[1] / 2
+
+
+def wall_behind(one: Fitting, space: RoomSpace) -> Stretch | None:
+    """The wall that what is drawn stands against; None where none is near its back."""
+    front, back = _front_and_back(one)
     found: list[tuple[float, Stretch]] = []
-    for one in space.stretches:
-        along = float((middle - one.start) @ one.along)
-        away = abs(float((back - one.start) @ one.inward))
-        straight = float(front @ one.inward) > math.cos(ASKEW_RAD)
-        if straight and -0.1 <= along <= one.length + 0.1 and away <= TO_WALL_M:
-            found.append((away, one))
+    for wall in space.stretches:
+        along = float((np.asarray(one.at_m) - wall.start) @ wall.along)
+        away = abs(float((back - wall.start) @ wall.inward))
+        straight = float(front @ wall.inward) > math.cos(ASKEW_RAD)
+        if straight and -0.1 <= along <= wall.length + 0.1 and away <= TO_WALL_M:
+            found.append((away, wall))
     return min(found, key=lambda pair: pair[0])[1] if found else None
 
 
-def _stands(thing: Stood, layout: Layout) -> bool:
+def takes_place(thing: Stood, layout: Layout) -> bool:
+    """Put a thing where it is; False where it may not stand there, or nobody could walk."""
     if not layout.allows(thing) or not layout.can_walk([thing]):
         return False
     layout.add([thing])

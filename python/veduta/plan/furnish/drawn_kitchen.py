@@ -13,7 +13,7 @@ import numpy as np
 
 from veduta.plan.document import Fitting
 from veduta.plan.furnish.arrangement import OFF_WALL_M
-from veduta.plan.furnish.as_drawn import SHIFTS_M, wall_behind
+from veduta.plan.furnish.as_drawn import SHIFTS_M, takes_place, wall_behind
 from veduta.plan.furnish.catalogue.entry import Entry
 from veduta.plan.furnish.choice import Choice
 from veduta.plan.furnish.layout import Layout, Stood
@@ -76,14 +76,12 @@ def place_kitchen(
 
 def _at_wall(one: Fitting, layout: Layout, choice: Choice) -> tuple[Stretch, _Unit] | None:
     """The unit around what is drawn, and the wall at its back; None where there is none."""
-    front = np.array([np.sin(one.turn_rad), -np.cos(one.turn_rad)])
-    middle = np.asarray(one.at_m)
-    wall = wall_behind(middle, middle - front * one.size_m[1] / 2, front, layout.space)
+    wall = wall_behind(one, layout.space)
     if wall is None:
         return None
     kind = TYPES[one.kind]
     width = choice.entry(kind).sized(one.size_m[0] + 2 * RIM_M if kind == SINK else None)[0]
-    along = float((middle - wall.start) @ wall.along)
+    along = float((np.asarray(one.at_m) - wall.start) @ wall.along)
     low = min(max(along - width / 2, 0.0), max(wall.length - width, 0.0))
     return wall, _Unit(kind, low, low + width, drawn=True)
 
@@ -109,7 +107,7 @@ def _row(drawn: Sequence[_Unit], wall: Stretch, lacks: set[str]) -> list[_Unit]:
     for kind in sorted(lacks):
         needed = USUAL_M + (USUAL_M if kind == HOB else 0.8)
         if behind >= max(needed, before):
-            row += [*_counter(row[-1].high, row[-1].high + USUAL_M)]
+            row += _counter(row[-1].high, row[-1].high + USUAL_M)
             row.append(_Unit(kind, row[-1].high, row[-1].high + needed - USUAL_M))
         elif before >= needed:
             row = [*_counter(row[0].low - USUAL_M, row[0].low), *row]
@@ -162,10 +160,7 @@ def _put(
         return None
     thing = _against(entry, size, 0.5 * (unit.low + unit.high) + shift, wall)
     thing = replace(thing, group=group, drawn=unit.drawn, between=unit.between)
-    if not layout.allows(thing) or not layout.can_walk([thing]):
-        return None
-    layout.add([thing])
-    return thing
+    return thing if takes_place(thing, layout) else None
 
 
 def _against(
