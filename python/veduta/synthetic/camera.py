@@ -88,6 +88,14 @@ def look_at(
     eye, target = np.asarray(eye_m, np.float64), np.asarray(target_m, np.float64)
     forward = target - eye
     forward /= np.linalg.norm(forward)
+    middle_px = (size_px[0] / 2, size_px[1] / 2)
+    return Camera(size_px[0], size_px[1], focal_px, middle_px, pose_along(eye, forward, roll_rad))
+
+
+def pose_along(
+    eye: NDArray[np.float64], forward: NDArray[np.float64], roll_rad: float = 0.0
+) -> NDArray[np.float64]:
+    """(4, 4) of what is at `eye` (3,) and whose z is the unit vector `forward`, as of `look_at`."""
     right = np.cross(forward, [0.0, 0.0, 1.0])
     if np.linalg.norm(right) < 1e-9:
         right = np.array([1.0, 0.0, 0.0])
@@ -95,9 +103,7 @@ def look_at(
     down = np.cross(forward, right)
     c, s = np.cos(roll_rad), np.sin(roll_rad)
     rotation = np.stack([c * right + s * down, -s * right + c * down, forward])
-    cam_from_world = np.eye(4)
-    cam_from_world[:3, :3] = rotation
-    cam_from_world[:3, 3] = -rotation @ eye
-    return Camera(
-        size_px[0], size_px[1], focal_px, (size_px[0] / 2, size_px[1] / 2), cam_from_world
-    )
+    found = np.eye(4)
+    found[:3, :3] = rotation
+    found[:3, 3] = -rotation @ eye
+    return found

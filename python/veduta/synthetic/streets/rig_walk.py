@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.synthetic.camera import FILM_DIAGONAL_MM, Camera
+from veduta.synthetic.camera import FILM_DIAGONAL_MM, Camera, pose_along
 from veduta.synthetic.seeds import stream
 from veduta.synthetic.streets.house import Street
 
@@ -76,18 +76,7 @@ def walk_rig(
         way += float(rng.normal(0.0, np.deg2rad(3.0)))
         nod, roll = np.deg2rad(rng.normal(0.0, 1.5, 2))
         ahead = np.array([np.cos(way) * np.cos(nod), np.sin(way) * np.cos(nod), np.sin(nod)])
-        right = np.cross(ahead, [0.0, 0.0, 1.0])
-        right /= np.linalg.norm(right)
-        down = np.cross(ahead, right)
-        turned = np.stack(
-            [
-                np.cos(roll) * right + np.sin(roll) * down,
-                np.cos(roll) * down - np.sin(roll) * right,
-                ahead,
-            ]
-        )
-        body = np.eye(4)
-        body[:3, :3], body[:3, 3] = turned, -turned @ place
+        body = pose_along(place, ahead, float(roll))
         for mount in mounted:
             focal = mount.focal_mm35 * float(np.hypot(*size_px)) / FILM_DIAGONAL_MM
             middle_px = (size_px[0] / 2, size_px[1] / 2)
