@@ -1,15 +1,15 @@
 /** Loading what a walk needs near the person: the models of transitions, and the pictures of stations. */
-import { BufferAttribute, BufferGeometry, LinearMipmapLinearFilter, Mesh, NoColorSpace, Texture, type WebGLRenderer } from "three";
+import { BufferAttribute, BufferGeometry, Mesh, NoColorSpace, Texture, type WebGLRenderer } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Fault } from "../core/fault.ts";
 import { type MorphWalk, nearTransitions, placeOn } from "../core/morph-walk.ts";
 import { fileAddress } from "../core/place.ts";
 import type { Wish, Wishes } from "../core/wishes.ts";
+import { bitmapTexture } from "./bitmap-texture.ts";
 import { fetchBytes } from "./fetch.ts";
 import { within } from "./limited-image.ts";
 
 const REMEDY = "Write the walk again with `veduta walk`.";
-const ANISOTROPY = 8;
 
 /** One end's model: what was seen there, what spans breaks in depth, and what is elsewhere in the other view. */
 export interface EndModel {
@@ -154,7 +154,7 @@ export class MorphFiles {
     if (file === undefined) return;
     this.#pictures.set(station, null);
     const wish = this.#wishes.bring(file, async () => await this.#bitmap(file), (bitmap) => {
-      const texture = textureOf(bitmap);
+      const texture = bitmapTexture(bitmap, NoColorSpace);
       texture.addEventListener("dispose", () => this.#fresh.delete(texture));
       if (this.#pictures.get(station) === null) {
         this.#pictures.set(station, texture);
@@ -196,17 +196,6 @@ export class MorphFiles {
     const [torn = new BufferGeometry(), moving = new BufferGeometry()] = others;
     return { seen, torn, moving };
   }
-}
-
-function textureOf(bitmap: ImageBitmap): Texture {
-  const texture = new Texture(bitmap);
-  texture.flipY = false;
-  texture.colorSpace = NoColorSpace;
-  texture.minFilter = LinearMipmapLinearFilter;
-  texture.anisotropy = ANISOTROPY;
-  texture.needsUpdate = true;
-  texture.addEventListener("dispose", () => bitmap.close());
-  return texture;
 }
 
 /** The columns under the names that the shaders have for them. */

@@ -1,9 +1,10 @@
 /** The photos as textures: fetched when they are wanted, and a bounded number of bytes of them kept. */
-import { LinearFilter, LinearMipmapLinearFilter, SRGBColorSpace, Texture } from "three";
+import { SRGBColorSpace, type Texture } from "three";
 import { BoundedCache } from "../core/bounded-cache.ts";
 import { Fault } from "../core/fault.ts";
 import { fileAddress, type Shot } from "../core/place.ts";
 import type { Wish, Wishes } from "../core/wishes.ts";
+import { bitmapTexture } from "./bitmap-texture.ts";
 import { fetchBytes } from "./fetch.ts";
 import { sizeWithin } from "./limited-image.ts";
 
@@ -14,7 +15,6 @@ export const CHOSEN_PX = 4096;
 /** Four bytes a pixel and a third more for the smaller copies: about 20 photos in passing. */
 const MOST_BYTES = 256e6;
 const BYTES_PER_PIXEL = 4 * (4 / 3);
-const ANISOTROPY = 8;
 
 export class PhotoTextures {
   readonly #shots: readonly Shot[];
@@ -35,10 +35,7 @@ export class PhotoTextures {
       load: (key) => this.#load(key),
       cancel: (key) => this.#cancel(key),
       cost: ({ image }) => BYTES_PER_PIXEL * image.width * image.height,
-      dispose: (texture) => {
-        texture.dispose();
-        texture.image.close();
-      },
+      dispose: (texture) => texture.dispose(),
     });
   }
 
@@ -73,7 +70,7 @@ export class PhotoTextures {
           return;
         }
         this.#open.delete(key);
-        resolve(textureOf(bitmap));
+        resolve(bitmapTexture(bitmap, SRGBColorSpace));
       });
       const giveUp = (): void => {
         isWanted = false;
@@ -116,16 +113,4 @@ export async function bitmapOf(
 
 function keyOf(index: number, side_px: number): string {
   return `${index} ${side_px}`;
-}
-
-function textureOf(bitmap: ImageBitmap): Texture<ImageBitmap> {
-  const texture = new Texture(bitmap);
-  // A bitmap is turned over when it is made, not when it is sent.
-  texture.flipY = false;
-  texture.colorSpace = SRGBColorSpace;
-  texture.anisotropy = ANISOTROPY;
-  texture.minFilter = LinearMipmapLinearFilter;
-  texture.magFilter = LinearFilter;
-  texture.needsUpdate = true;
-  return texture;
 }
