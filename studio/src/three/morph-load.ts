@@ -24,16 +24,20 @@ export interface WayModels {
   readonly back: EndModel;
 }
 
+/** What is asked for while one is near it; null until it has come. */
+interface Near<T> {
+  came: T | null;
+  wishes: readonly Wish[];
+}
+
 export class MorphFiles {
   readonly #walk: MorphWalk;
   readonly #manifest: URL;
   readonly #onArrival: () => void;
   readonly #most_px: number;
   readonly #wishes: Wishes;
-  readonly #ways = new Map<number, WayModels | null>();
-  readonly #pictures = new Map<number, Texture | null>();
-  readonly #wayWishes = new Map<number, readonly Wish[]>();
-  readonly #pictureWishes = new Map<number, Wish>();
+  readonly #ways = new Map<number, Near<WayModels>>();
+  readonly #pictures = new Map<number, Near<Texture>>();
   #wanted = new Set<number>();
   /** Pictures that have come, but are not on the card. */
   readonly #fresh = new Set<Texture>();
@@ -47,11 +51,11 @@ export class MorphFiles {
   }
 
   way(transition: number): WayModels | null {
-    return this.#ways.get(transition) ?? null;
+    return this.#ways.get(transition)?.came ?? null;
   }
 
   picture(station: number): Texture | null {
-    return this.#pictures.get(station) ?? null;
+    return this.#pictures.get(station)?.came ?? null;
   }
 
   /** Gives the card one of the pictures that have come: all at once, at a key position, would be felt. */
@@ -70,18 +74,18 @@ export class MorphFiles {
 
   /** How many models and pictures are on their way. */
   get waiting(): number {
-    const own = [...[...this.#wayWishes.values()].flat(), ...this.#pictureWishes.values()];
-    return own.filter(({ isUnderway }) => isUnderway).length;
+    const near = [...this.#ways.values(), ...this.#pictures.values()];
+    return near.flatMap(({ wishes }) => wishes).filter(({ isUnderway }) => isUnderway).length;
   }
 
   /** On the card: models as they are, pictures with their smaller ones. */
   get bytes(): number {
     let sum = 0;
-    for (const way of this.#ways.values()) {
-      for (const end of way === null ? [] : [way.forth, way.back]) sum += bytesOf(end.seen) + bytesOf(end.torn) + bytesOf(end.moving);
+    for (const { came } of this.#ways.values()) {
+      for (const end of endsOf(came)) sum += bytesOf(end.seen) + bytesOf(end.torn) + bytesOf(end.moving);
     }
-    for (const picture of this.#pictures.values()) {
-      const { width, height } = (picture?.image ?? { width: 0, height: 0 }) as ImageBitmap;
+    for (const { came } of this.#pictures.values()) {
+      const { width, height } = (came?.image ?? { width: 0, height: 0 }) as ImageBitmap;
       sum += (width * height * 4 * 4) / 3;
     }
     return Math.round(sum);
@@ -93,19 +97,17 @@ export class MorphFiles {
     this.#wanted = new Set(near);
     const stations = new Set(near.flatMap((n) => [this.#walk.transitions[n]?.start ?? 0, this.#walk.transitions[n]?.end ?? 0]));
     if (near.length === 0) stations.add(0);
-    for (const [transition, models] of this.#ways) {
+    for (const [transition, { came, wishes }] of this.#ways) {
       if (this.#wanted.has(transition)) continue;
       this.#ways.delete(transition);
-      for (const wish of this.#wayWishes.get(transition) ?? []) wish.drop();
-      this.#wayWishes.delete(transition);
-      for (const end of models === null ? [] : [models.forth, models.back]) dispose(end);
+      for (const wish of wishes) wish.drop();
+      for (const end of endsOf(came)) dispose(end);
     }
-    for (const [station, picture] of this.#pictures) {
+    for (const [station, { came, wishes }] of this.#pictures) {
       if (stations.has(station)) continue;
       this.#pictures.delete(station);
-      this.#pictureWishes.get(station)?.drop();
-      this.#pictureWishes.delete(station);
-      picture?.dispose();
+      for (const wish of wishes) wish.drop();
+      came?.dispose();
     }
     for (const station of stations) if (!this.#pictures.has(station)) void this.#bringPicture(station);
     for (const transition of near) if (!this.#ways.has(transition)) void this.#bringWay(transition);
@@ -122,8 +124,8 @@ export class MorphFiles {
 
   dispose(): void {
     this.#wanted.clear();
-    for (const models of this.#ways.values()) for (const end of models === null ? [] : [models.forth, models.back]) dispose(end);
-    for (const picture of this.#pictures.values()) picture?.dispose();
+    for (const { came } of this.#ways.values()) for (const end of endsOf(came)) dispose(end);
+    for (const { came } of this.#pictures.values()) came?.dispose();
     this.#ways.clear();
     this.#pictures.clear();
   }
@@ -132,37 +134,40 @@ export class MorphFiles {
   async #bringWay(transition: number): Promise<void> {
     const { forth, back } = this.#walk.transitions[transition] ?? {};
     if (forth === null || forth === undefined || back === null || back === undefined) return;
-    this.#ways.set(transition, null);
+    const own: Near<WayModels> = { came: null, wishes: [] };
+    this.#ways.set(transition, own);
     const came: Partial<Record<"forth" | "back", EndModel>> = {};
     const take = (end: "forth" | "back", model: EndModel): void => {
       came[end] = model;
       if (came.forth === undefined || came.back === undefined) return;
       const models = { forth: came.forth, back: came.back };
-      if (this.#ways.get(transition) === null && this.#wanted.has(transition)) this.#ways.set(transition, models);
-      else for (const one of [models.forth, models.back]) dispose(one);
+      const now = this.#ways.get(transition);
+      if (now?.came === null && this.#wanted.has(transition)) now.came = models;
+      else for (const one of endsOf(models)) dispose(one);
       this.#onArrival();
     };
-    const brought = ([["forth", forth], ["back", back]] as const).map(([end, file]) =>
+    own.wishes = ([["forth", forth], ["back", back]] as const).map(([end, file]) =>
       this.#wishes.bring(file, async () => await this.#model(file), (model) => take(end, model)),
     );
-    this.#wayWishes.set(transition, brought);
-    await Promise.all(brought.map(async ({ tried }) => await tried));
+    await Promise.all(own.wishes.map(async ({ tried }) => await tried));
   }
 
   async #bringPicture(station: number): Promise<void> {
     const file = this.#walk.stations[station]?.picture;
     if (file === undefined) return;
-    this.#pictures.set(station, null);
+    const own: Near<Texture> = { came: null, wishes: [] };
+    this.#pictures.set(station, own);
     const wish = this.#wishes.bring(file, async () => await this.#bitmap(file), (bitmap) => {
       const texture = bitmapTexture(bitmap, NoColorSpace);
       texture.addEventListener("dispose", () => this.#fresh.delete(texture));
-      if (this.#pictures.get(station) === null) {
-        this.#pictures.set(station, texture);
+      const now = this.#pictures.get(station);
+      if (now?.came === null) {
+        now.came = texture;
         this.#fresh.add(texture);
       } else texture.dispose();
       this.#onArrival();
     });
-    this.#pictureWishes.set(station, wish);
+    own.wishes = [wish];
     await wish.tried;
   }
 
@@ -196,6 +201,10 @@ export class MorphFiles {
     const [torn = new BufferGeometry(), moving = new BufferGeometry()] = others;
     return { seen, torn, moving };
   }
+}
+
+function endsOf(models: WayModels | null): readonly EndModel[] {
+  return models === null ? [] : [models.forth, models.back];
 }
 
 /** The columns under the names that the shaders have for them. */
