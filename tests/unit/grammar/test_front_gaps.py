@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from test_styles import LOTS, derive
 
 from veduta.grammar.rules import style_names
-from veduta.place.instances import placed
+from veduta.place.flatten import flattened
 from veduta.place.part import Part
 
 Points = NDArray[np.float64]
@@ -28,13 +28,8 @@ Cut = tuple[Points, Points, Points]
 
 def triangles_of(part: Part) -> Points:
     """(n, 3, 3) corners of all that is seen, what is repeated too; from outside leftwards."""
-    found = [part.positions_m[part.triangles.indices]]
-    for group in part.instances.groups if part.instances else ():
-        mesh = part.instances.meshes[group.mesh] if part.instances else None
-        if mesh is not None:
-            corners = placed(group.part_from_mesh, mesh.positions_m.astype(np.float64))
-            found.append(corners[:, mesh.indices].reshape(-1, 3, 3))
-    return np.concatenate(found)
+    whole = flattened(part)
+    return whole.positions_m[whole.triangles.indices].astype(np.float64)
 
 
 def cut_at(triangles: Points, z: float) -> Cut:
