@@ -234,3 +234,15 @@ def test_texts_that_are_no_files(tmp_path: Path) -> None:
     (tmp_path / "all.txt").write_text(rows)
     made.write_pictures(tmp_path / "images")
     assert len(read_cameras(tmp_path).cameras) == 4
+
+
+@pytest.mark.parametrize("centre", [[40.0, 30.0, 1.0], [40.0], [float("nan"), 30.0], []])
+def test_openmvg_with_a_principal_point_that_is_no_place(
+    centre: list[float], tmp_path: Path
+) -> None:
+    made.write_openmvg(tmp_path, made.ring())
+    path = tmp_path / "sfm_data.json"
+    record = json.loads(path.read_text())
+    record["intrinsics"][0]["value"]["ptr_wrapper"]["data"]["principal_point"] = centre
+    path.write_text(json.dumps(record))
+    assert refused(path, "not as OpenMVG writes it").subject == str(path)

@@ -191,6 +191,16 @@ def test_a_message_that_is_none_of_its_type_is_left_out_and_said(
         read_own(log, scratch=tmp_path / "again")
 
 
+def test_messages_whose_fields_have_other_names_are_refused(
+    folder: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log, _ = folder
+    monkeypatch.setattr(AnyReader, "deserialize", lambda self, raw, kind: object())
+    monkeypatch.setattr(own, "unpack_in_limits", unpack_bag)  # here, where it is broken
+    with pytest.raises(InputError, match=r"has .* in /(up|odom) without header\. Record it again"):
+        read_own(log, scratch=tmp_path / "scratch")
+
+
 def test_mutated_bags_give_tables_or_a_reason(folder: tuple[Path, Path], tmp_path: Path) -> None:
     log, bag = folder
     sound = bag.read_bytes()

@@ -86,7 +86,7 @@ def _intrinsics(path: Path, rows: list[Any]) -> dict[int, dict[str, Any]]:
         found[int(row["key"])] = {
             "size": picture_size(path, inner["width"], inner["height"]),
             "focal": _focal(path, float(inner["focal_length"])),
-            "centre": tuple(float(value) + 0.5 for value in inner["principal_point"]),
+            "centre": _centre(inner["principal_point"]),
             "lens": lens,
         }
     return found
@@ -97,6 +97,14 @@ def _focal(path: Path, focal_px: float) -> float:
         fault = f"has a camera with a focal length of {focal_px} px"
         raise InputError(path, fault, COPY_AGAIN)
     return focal_px
+
+
+def _centre(said: list[Any]) -> tuple[float, float]:
+    """Ours, half a pixel on. ValueError where it is no pair of numbers."""
+    x, y = (float(value) + 0.5 for value in said)
+    if not (np.isfinite(x) and np.isfinite(y)):
+        raise ValueError("a principal point is no place")
+    return x, y
 
 
 def _lens(path: Path, kind: str, data: dict[str, Any]) -> tuple[float, ...]:

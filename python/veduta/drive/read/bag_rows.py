@@ -35,7 +35,17 @@ class BagRows:
         self._transforms = None if frames is None else Transforms(*frames)
 
     def row(self, table: str, kind: str, message: Any, stamp_s: float) -> Row | None:
-        """None of a transform that tells nothing of the vehicle. InputError of another kind."""
+        """None of a transform that tells nothing of the vehicle. InputError of another kind.
+
+        A bag holds the description of its own messages, where fields may have other names.
+        """
+        try:
+            return self._row(table, kind, message, stamp_s)
+        except AttributeError as error:
+            fault = f"has {kind} in {self._bag.topics[table]} without {error.name}"
+            raise InputError(self._path, fault, "Record it again, or convert it.") from error
+
+    def _row(self, table: str, kind: str, message: Any, stamp_s: float) -> Row | None:
         name = kind.rsplit("/", 1)[-1]
         if name in ("TFMessage", "tfMessage"):
             return self._moved(message, table, stamp_s)
