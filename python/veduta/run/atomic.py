@@ -48,6 +48,17 @@ def atomic_folder(path: Path) -> Iterator[Path]:
     sync_folder(path.parent)
 
 
+def remove_folder(path: Path) -> None:
+    """Take a folder away whole: who is killed meanwhile leaves it, or a half for `drop_halves`."""
+    if not path.exists():
+        return
+    temporary = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".tmp", dir=path.parent))
+    try:
+        os.replace(path, temporary)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
 def drop_halves(folder: Path) -> None:
     """Take away what writers that were killed have left under temporary names below `folder`.
 

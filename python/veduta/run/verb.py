@@ -7,12 +7,14 @@ every verb (`run.outputs` has the rules of OUT).
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from pydantic import JsonValue
 
+from veduta.run.atomic import remove_folder
 from veduta.run.digests import result_key
 from veduta.run.errors import NotFoundError
 from veduta.run.options import Options
@@ -95,6 +97,8 @@ def run_verb(
                 progress.started(Task(call.subject, None))
                 _make(call, opened, key, make, progress)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
+        with suppress(OSError):  # what was kept is in nobody's way
+            remove_folder(_stages(call, opened))
         return _result(out, opened, up_to_date=done)
 
 
@@ -105,7 +109,7 @@ def _make(
     make: Callable[[Work], None],
     progress: Progress,
 ) -> None:
-    stages = opened.path / PRIVATE / call.command.split()[0]
+    stages = _stages(call, opened)
     with writing_to(opened.path):
         stages.mkdir(parents=True, exist_ok=True)
     folder = opened.work_folder(CALL)
@@ -126,7 +130,11 @@ def _make(
     opened.publish(CALL, key, folder, summary, failure)
     if not call.in_place:
         opened.finish()
-    work.drop_stages()
+
+
+def _stages(call: VerbCall, opened: OutFolder) -> Path:
+    """Where a killed run leaves what the next goes on from."""
+    return opened.path / PRIVATE / call.command.split()[0]
 
 
 def _report(call: VerbCall, work: Work, failure: Failure | None) -> Report:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -139,10 +138,6 @@ class Work:
     ) -> dict[str, NDArray[Any]]:
         """The same for a few arrays by name."""
         return self.kept(name, inputs, make, _save_arrays, _load_arrays)
-
-    def drop_stages(self) -> None:
-        """Nothing goes on from what was kept."""
-        shutil.rmtree(self.stages, ignore_errors=True)
 
 
 def _save_arrays(arrays: dict[str, NDArray[Any]], folder: Path) -> None:

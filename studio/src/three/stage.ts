@@ -10,6 +10,7 @@ import type { Axes } from "../core/pinhole.ts";
 import { cornersOfPlace, lowestGround, type Place } from "../core/place.ts";
 import { boundsOfShots, outlookOf } from "../core/shots.ts";
 import { outlookOfFronts } from "../core/fronts.ts";
+import { lookAlong } from "../core/long-view.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
 import { Animals } from "./animals.ts";
@@ -122,9 +123,10 @@ export class Stage {
     return shown.length > 0 ? "walls" : "nothing";
   }
 
-  /** What the first picture shows instead of all, where an animal would be but a dot in it; null elsewhere. */
+  /** What the first picture shows instead of all: an animal that would be but a dot, or a stretch of a street. */
   get firstLook(): FirstLook | null {
-    if (!beginsWithAnimal(this.#place)) return null;
+    const { shots, start } = this.#place;
+    if (!beginsWithAnimal(this.#place)) return shots.length > 0 ? null : lookAlong(this.seen, start);
     const stands = standsOf(this.#place).map((stand, which) => {
       const now = this.animals.goerOf(which);
       return now === null ? stand : { ...stand, at: now.place, ahead: now.ahead };

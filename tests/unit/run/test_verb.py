@@ -122,6 +122,38 @@ def test_a_killed_run_goes_on_from_what_was_kept(tmp_path: Path) -> None:
     assert not (out / ".veduta/carve").exists()
 
 
+def test_who_is_killed_while_tidying_up_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    whole = shutil.rmtree
+
+    def half(path: Path, ignore_errors: bool = False) -> None:
+        if list(Path(path).glob("one-*")):  # what was kept
+            (next(Path(path).glob("one-*")) / "text").unlink()
+            raise KeyboardInterrupt
+        whole(path, ignore_errors=ignore_errors)
+
+    def make(work: Work) -> None:
+        work.kept("one", [1], lambda: "some", _write_text, _read_text)
+
+    monkeypatch.setattr(shutil, "rmtree", half)
+    with pytest.raises(KeyboardInterrupt):
+        _run(out, make)
+    monkeypatch.undo()
+    assert _run(out, make, force=True).exit_code == 0  # no half is taken for a whole
+    assert _run(out, make).up_to_date
+    assert sorted(path.name for path in (out / ".veduta").iterdir()) == ["lock", "run.json"]
+
+
+def test_stages_of_a_finished_run_are_dropped_by_the_next(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    _run(out, lambda work: None)
+    (out / ".veduta/carve/one-0123").mkdir(parents=True)
+    assert _run(out, lambda work: None).up_to_date
+    assert not (out / ".veduta/carve").exists()
+
+
 def test_what_was_kept_is_read_again_and_missed_where_it_is_gone(tmp_path: Path) -> None:
     def reads_again(work: Work) -> None:
         made = work.kept("one", [1], lambda: "some", _write_text, _read_text)
