@@ -86,21 +86,48 @@ export interface Look {
 }
 
 /** Statistics of a region of the page as the person sees it. */
-export async function look(
-  page: Page,
-  clip: { x: number; y: number; width: number; height: number },
-): Promise<Look> {
+export async function look(page: Page, clip: Clip): Promise<Look> {
+  return lookOf(await pixelsOf(page, clip));
+}
+
+/** Pixels that are darker or brighter than all four neighbours by so much (luminance, 0..255), as a share of all. */
+export async function specks(page: Page, clip: Clip, by: number): Promise<number> {
+  const { width, luminance } = await pixelsOf(page, clip);
+  let found = 0;
+  for (let at = width; at < luminance.length - width; at += 1) {
+    const own = luminance[at] ?? 0;
+    const others = [at - 1, at + 1, at - width, at + width].map((one) => own - (luminance[one] ?? 0));
+    if (others.every((more) => more > by) || others.every((more) => more < -by)) found += 1;
+  }
+  return found / luminance.length;
+}
+
+interface Clip {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Pixels by rows. */
+interface Pixels {
+  readonly width: number;
+  readonly luminance: readonly number[];
+  readonly mean: readonly [number, number, number];
+}
+
+async function pixelsOf(page: Page, clip: Clip): Promise<Pixels> {
   const png = (await page.screenshot({ clip })).toString("base64");
   // A page of its own: the studio's content policy need not allow what the test does.
   const helper = await page.context().newPage();
   try {
-    return await helper.evaluate(statisticsOf, png);
+    return await helper.evaluate(readPixels, png);
   } finally {
     await helper.close();
   }
 }
 
-async function statisticsOf(png: string): Promise<Look> {
+async function readPixels(png: string): Promise<Pixels> {
   const bytes = Uint8Array.from(atob(png), (c) => c.charCodeAt(0));
   const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
   const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
@@ -108,26 +135,26 @@ async function statisticsOf(png: string): Promise<Look> {
   if (context === null) throw new Error("no 2D canvas");
   context.drawImage(bitmap, 0, 0);
   const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-  const sums = [0, 0, 0];
-  let light = 0;
-  let square = 0;
+  const sums: [number, number, number] = [0, 0, 0];
+  const luminance: number[] = [];
   for (let i = 0; i < data.length; i += 4) {
     const [r, g, b] = [data[i] ?? 0, data[i + 1] ?? 0, data[i + 2] ?? 0];
-    const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    sums[0] = (sums[0] ?? 0) + r;
-    sums[1] = (sums[1] ?? 0) + g;
-    sums[2] = (sums[2] ?? 0) + b;
-    light += luminance;
-    square += luminance * luminance;
+    luminance.push(0.2126 * r + 0.7152 * g + 0.0722 * b);
+    sums[0] += r;
+    sums[1] += g;
+    sums[2] += b;
   }
-  const n = data.length / 4;
-  return {
-    spread: Math.sqrt(Math.max(0, square / n - (light / n) ** 2)),
-    mean: [(sums[0] ?? 0) / n, (sums[1] ?? 0) / n, (sums[2] ?? 0) / n],
-  };
+  const n = luminance.length;
+  return { width: bitmap.width, luminance, mean: [sums[0] / n, sums[1] / n, sums[2] / n] };
+}
+
+function lookOf({ luminance, mean }: Pixels): Look {
+  const n = luminance.length;
+  const middle = luminance.reduce((sum, one) => sum + one, 0) / n;
+  return { spread: Math.sqrt(luminance.reduce((sum, one) => sum + (one - middle) ** 2, 0) / n), mean };
 }
 
 /** A square of the page around a point. */
-export function around(at: { x: number; y: number }, size = 12): { x: number; y: number; width: number; height: number } {
+export function around(at: { x: number; y: number }, size = 12): Clip {
   return { x: at.x - size / 2, y: at.y - size / 2, width: size, height: size };
 }
