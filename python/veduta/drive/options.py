@@ -70,8 +70,7 @@ class TextureOptions(Options):
     )
     fill: bool = Field(
         default=True,
-        description="invent the texture of what no image shows, and mark it; --no-fill leaves it"
-        " grey",
+        description="what no image shows stays grey; else its texture is invented, and marked",
     )
     anonymise: bool = Field(
         default=False,

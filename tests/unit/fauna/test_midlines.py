@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -101,3 +102,23 @@ def test_frames_with_a_cut_axis_are_named(write: Write) -> None:
     found = describe(cut, "a", SOURCE, FaunaOptions()).animal
     assert found.source.used == 11
     assert found.source.left_out == ["frame 4: its axis is 40% of the usual length"]
+
+
+def test_widths_that_are_not_everywhere_are_carried_on(write: Write) -> None:
+    tracked = read_midlines(write(_rows()))
+    half = np.full((len(tracked.points), 9), 0.02)
+    half[:, :2] = np.nan
+    some = replace(tracked, half_widths=half)
+    body = describe(some, "a", SOURCE, FaunaOptions()).animal.body
+    assert body.widths == "measured"
+    assert len({round(piece.half_width, 6) for piece in body.slices}) == 1
+
+
+def test_widths_that_are_nowhere_are_told_once(write: Write) -> None:
+    tracked = read_midlines(write(_rows()))
+    none = replace(tracked, half_widths=np.full((len(tracked.points), 9), np.nan))
+    found = describe(none, "a", SOURCE, FaunaOptions())
+    bare = describe(tracked, "a", SOURCE, FaunaOptions())
+    assert found.animal.doubts == bare.animal.doubts
+    assert any("no widths" in doubt for doubt in found.animal.doubts)
+    assert found.animal.body == bare.animal.body

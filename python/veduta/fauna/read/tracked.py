@@ -212,8 +212,10 @@ def _body(
     if half is None or not np.isfinite(half).any():
         doubts.append("the record has no widths: the slices are those of the kind")
     else:
-        median = np.nanmedian(half, axis=0) / usual
-        apart = np.nanmedian(np.abs(half / usual - median), axis=0).mean()
+        seen = np.isfinite(half).any(axis=0)
+        steps = _even(half.shape[1])
+        median = np.interp(steps, steps[seen], np.nanmedian(half[:, seen], axis=0) / usual)
+        apart = np.nanmedian(np.abs(half[:, seen] / usual - median[seen]), axis=0).mean()
         score = float(np.clip(1.0 - apart / max(median.mean(), 1e-9), 0.0, 1.0))
         width = np.maximum(np.interp(places, _even(len(median)), median), _THINNEST)
         widths = "measured"
@@ -222,10 +224,10 @@ def _body(
         across = thickness(second, np.interp(_even(SAMPLES), places, width), SecondLooks())
         height = np.maximum(np.interp(places, _even(len(across.half)), across.half), _THINNEST)
         heights = "measured"
-        score = across.score if half is None else min(score, across.score)
+        score = across.score if widths == "invented" else min(score, across.score)
         if not across.is_sure:
             doubts.append("which end of the second view is the head is not clear")
-    elif half is not None:
+    elif widths == "measured":
         doubts.append(
             "one view does not show how high the animal is: the kind's shape was taken"
             " (--second-view)"
