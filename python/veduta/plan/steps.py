@@ -151,7 +151,9 @@ def tour_step(
             step.rejected.append("there is no tour: no room has a floor on which one can stand")
             return None
         step.counts |= {
-            "rooms": len({stretch.room for stretch in tour.stretches} - {None}),
+            "rooms": len(
+                {(one.storey, one.room) for one in tour.stretches if one.room is not None}
+            ),
             "metres": round(tour.length_m),
             "seconds": round(float(tour.path.times_s[-1])),
         }

@@ -164,6 +164,8 @@ def test_stairs_lead_to_the_storey_above_and_back() -> None:
         if np.interp(stretch.start_s, tour.path.times_s, heights) > 2.7
     }
     assert upstairs == {"living", "bath"}
+    # Rooms of both storeys have the same ids, and are not one.
+    assert len({(one.storey, one.room) for one in tour.stretches if one.room}) == 4
 
 
 def test_a_storey_without_stairs_is_named() -> None:

@@ -11,6 +11,7 @@ from shapely.geometry import LineString, Point, Polygon
 from veduta.synthetic.plans import curves
 from veduta.synthetic.plans.brochure import brochure_page
 from veduta.synthetic.plans.canvas import Image
+from veduta.synthetic.plans.hands import HANDS, hand_drawn
 from veduta.synthetic.plans.measured import measured_sheet
 from veduta.synthetic.plans.truth_file import SheetTruth
 from veduta.synthetic.plans.working_drawing import working_drawing
@@ -19,7 +20,12 @@ Make = Callable[[int], tuple[Image, list[SheetTruth]]]
 MAKERS = (brochure_page, measured_sheet, working_drawing)
 
 
-@pytest.mark.parametrize("make", MAKERS)
+def any_hand(seed: int) -> tuple[Image, list[SheetTruth]]:
+    """Each hand in turn."""
+    return hand_drawn(seed, HANDS[seed % len(HANDS)])
+
+
+@pytest.mark.parametrize("make", [*MAKERS, any_hand])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_openings_lie_in_their_walls_clear_of_each_other(make: Make, seed: int) -> None:
     for truth in make(seed)[1]:
@@ -33,7 +39,7 @@ def test_openings_lie_in_their_walls_clear_of_each_other(make: Make, seed: int) 
             assert flat == sorted(flat)
 
 
-@pytest.mark.parametrize("make", MAKERS)
+@pytest.mark.parametrize("make", [*MAKERS, any_hand])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_every_room_is_reached(make: Make, seed: int) -> None:
     for truth in make(seed)[1]:
@@ -83,3 +89,16 @@ def test_a_seed_gives_the_same_sheet_again_and_another_seed_another(make: Make) 
     first, again, other = make(5)[0], make(5)[0], make(6)[0]
     assert np.array_equal(first, again)
     assert first.shape != other.shape or not np.array_equal(first, other)
+
+
+@pytest.mark.parametrize("hand", sorted(set(HANDS) - {"madori"}))
+def test_hands_draw_walls_darker_than_rooms(hand: str) -> None:
+    picture, (truth,) = hand_drawn(3, hand)
+    grey = picture.mean(axis=2)
+    storey = truth.storey
+    gaps = {one.wall for one in storey.openings}
+    lines = [LineString([one.start_m, one.end_m]) for one in storey.walls if one.id not in gaps]
+    reach = 0.6 * truth.metres_per_px
+    solid = [_mean(grey, truth, line.interpolate(0.5, normalized=True), reach) for line in lines]
+    rooms = [Polygon(one.outline_m).representative_point() for one in storey.rooms]
+    assert np.median(solid) < np.median([_mean(grey, truth, at, 0.05) for at in rooms]) - 40.0

@@ -18,10 +18,11 @@ OUTSIDE = "Outside"
 
 @dataclass(frozen=True)
 class Stretch:
-    """When the visitor is in a room (or outside: None)."""
+    """When the visitor is in a room (or outside: None), and the number of its storey."""
 
     room: str | None
     title: str
+    storey: int | None
     start_s: float
     end_s: float
 
@@ -32,20 +33,23 @@ def stretches_of(timed: Timed, grounds: Sequence[Ground]) -> tuple[Stretch, ...]
     for feet, time in zip(timed.feet_m, timed.times_s.tolist(), strict=True):
         place = _place_at(feet, grounds)
         if not found:
-            found.append(Stretch(*(place or (None, OUTSIDE)), 0.0, 0.0))
+            found.append(Stretch(*(place or (None, OUTSIDE, None)), 0.0, 0.0))
             continue
         found[-1] = replace(found[-1], end_s=time)
-        if place is not None and place != (found[-1].room, found[-1].title):
+        last = found[-1]
+        if place is not None and place != (last.room, last.title, last.storey):
             found.append(Stretch(*place, time, time))
     return tuple(found)
 
 
 def _place_at(
     feet: NDArray[np.float64], grounds: Sequence[Ground]
-) -> tuple[str | None, str] | None:
-    """Id and title of the room; None in a doorway."""
-    ground = min(grounds, key=lambda one: abs(one.elevation_m - float(feet[2])))
+) -> tuple[str | None, str, int | None] | None:
+    """Id and title of the room, number of its storey; None in a doorway."""
+    apart = [abs(one.elevation_m - float(feet[2])) for one in grounds]
+    storey = int(np.argmin(apart))
+    ground = grounds[storey]
     room = ground.space.room_at(feet[:2])
     if room is not None:
-        return room.id, title_of(room)
-    return None if ground.space.slab.covers(Point(feet[:2])) else (None, OUTSIDE)
+        return room.id, title_of(room), storey
+    return None if ground.space.slab.covers(Point(feet[:2])) else (None, OUTSIDE, None)
