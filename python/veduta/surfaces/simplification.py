@@ -37,12 +37,20 @@ def simplify(
     """At most so many triangles, or as few as keep 95 % of the vertices within an error.
 
     By quadrics (Garland and Heckbert 1997). With both, `most` is the limit and the error is kept
-    as long as that allows. ValueError where neither is given.
+    as long as that allows. A surface that would vanish stays as it is. ValueError where neither
+    is given.
     """
     if most is None and error_m is None:
         raise ValueError("say how many triangles, or what error")
     given = np.asarray(positions, dtype=np.float64)
     faces = np.asarray(triangles, dtype=np.uint32)
+    found = _fewest(given, faces, most, error_m)
+    return found if len(found.triangles) else Simplified(given, faces, 0.0)
+
+
+def _fewest(
+    given: NDArray[np.float64], faces: NDArray[np.uint32], most: int | None, error_m: float | None
+) -> Simplified:
     count = len(faces)
     if count <= FEWEST or (error_m is None and most is not None and count <= most):
         return Simplified(given, faces, 0.0)
@@ -83,6 +91,8 @@ def _error(
     """Distance of vertices, evenly picked, from the nearest of the triangles with near middles."""
     from scipy.spatial import cKDTree  # here, as few calls need it
 
+    if not len(faces):
+        return float("inf")  # nothing is left of it
     picked = given[:: max(1, len(given) // SAMPLES)]
     corners = positions[faces]
     near = min(NEAREST, len(faces))

@@ -55,6 +55,16 @@ def test_fewer_triangles_keep_the_error() -> None:
     assert np.quantile(away, 0.95) == pytest.approx(made.error_m, rel=0.1)
 
 
+@pytest.mark.parametrize("asked", [{"most": 16}, {"error_m": 0.1}, {"most": 20, "error_m": 0.1}])
+def test_a_surface_that_would_vanish_stays(asked: dict[str, float]) -> None:
+    positions = np.random.default_rng(2).random((41, 3))
+    rows = np.arange(40)
+    lines = np.stack([rows, rows, rows + 1], axis=1)  # no area
+    fewer = simplify(positions, lines, **asked)  # type: ignore[arg-type]
+    assert (fewer.triangles == lines).all()
+    assert fewer.error_m == 0.0
+
+
 def test_as_many_triangles_as_asked() -> None:
     mesh = relief()
     made = simplify(mesh.positions_m, mesh.triangles, most=300)
