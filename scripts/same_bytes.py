@@ -1,6 +1,6 @@
 """Whether two versions of Veduta write the same bytes: a fixed set of calls of all verbs.
 
-    .venv/bin/python scripts/same_bytes.py BEFORE [AFTER] [--only NAME]... [--keep DIR]
+    .venv/bin/python scripts/same_bytes.py BEFORE [AFTER] [--only NAME]... [--keep DIR] [--result]
 
 BEFORE and AFTER are commits or folders of checkouts; AFTER is this checkout where it is not given.
 A commit needs no build where its Rust sources are those of this checkout: the extension is taken
@@ -10,7 +10,8 @@ the exit code is 1. A call that fails in both is told as failed, with exit code 
 
 `same_bytes.py HEAD HEAD` compares a version with itself: it must find nothing. With --keep DIR the
 inputs and the results of BEFORE in DIR are used again where they are there, which saves half of the
-time while one works on AFTER; each result is compared in the state that DIR has it in.
+time while one works on AFTER; each result is compared in the state that DIR has it in. --result
+keeps what came out in `benchmarks/results/same-bytes.md`.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ EXTENSION = "python/veduta/_core.abi3.so"
 RUST = ("crates", "Cargo.toml", "Cargo.lock")
 TIMES = {
     "report.json": rb'"seconds": [0-9.e+-]+',
-    "report.html": rb'<td class="number">[0-9]+\.[0-9]{3}</td>'
-    rb'|<td class="number">[0-9.]+</td>\s*</tr>|<td[^>]*>[0-9.]+ s</td>'
+    "report.html": rb'<td class="number">[0-9.]+</td>\s*</tr>'
+    rb'|<td class="number">[0-9]+\.[0-9]{3}</td>|<td[^>]*>[0-9.]+ s</td>'
     rb'|(<rect class="bar"[^>]*/>\s*)?<text class="value"[^>]*>[0-9.]+ s</text>',
     ".veduta/run.json": rb'"seconds": [0-9.e+-]+|"[^"]*report\.(json|html)": "[0-9a-f]{64}"',
 }
@@ -56,6 +57,7 @@ def main() -> int:
     parser.add_argument("after", nargs="?", default=str(ROOT))
     parser.add_argument("--only", action="append", default=[], help="calls whose names begin so")
     parser.add_argument("--keep", type=Path, help="keep inputs and both results in this folder")
+    parser.add_argument("--result", action="store_true", help="keep the table")
     asked = parser.parse_args()
     calls = [one for one in CALLS if one.name.startswith(tuple(asked.only) or "")]
     with tempfile.TemporaryDirectory() as scratch:
@@ -70,7 +72,30 @@ def main() -> int:
     same, told = compared(*found)
     print("\n".join(told))
     print(f"{same} files are the same in both, {len(told)} are not")
+    if asked.result:
+        keep(asked.before, asked.after, found, told)
     return 1 if told or not same else 0
+
+
+def keep(before: str, after: str, found: Sequence[Hashes], told: Sequence[str]) -> None:
+    """The table of all calls in `benchmarks/results`."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    from record import record
+
+    rows = [
+        {
+            "call": call.name,
+            "files": sum(name.split("/")[0] == call.name for name in found[1]),
+            "differ": sum(line.split("/")[0] == call.name for line in told),
+        }
+        for call in CALLS
+    ]
+    notes = [
+        f"`scripts/same_bytes.py`: all files of all calls, made by {before} and by {after}, but for"
+        " what tells how long something took.",
+        *told,
+    ]
+    record("same-bytes", rows, notes)
 
 
 @contextmanager
