@@ -182,3 +182,54 @@ def test_covariances_are_those_of_the_numbers() -> None:
         for shape, factor in zip(shapes, factors, strict=True)
     )
     assert np.allclose(factors, factors[0], rtol=1e-6)
+
+
+def test_windows_taken_for_one_another_hide_no_wall() -> None:
+    """Points far behind a facade, which two photos see through it: as many as are on it."""
+    simulated, structure = street(1)
+    wall = walls(1)[0]
+    plain = sum(is_false(in_world(one, simulated), simulated.walls) for one in walls(1))
+    haunted = _with_ghosts(structure, wall, len(wall.point_rows))
+    found = find_walls(haunted, OPTIONS, 0)
+    middle = (wall.start + wall.end) / 2
+    near = [
+        one
+        for one in found
+        if one.outward @ wall.outward > 0.99
+        and abs((middle - one.start) @ one.outward) < 0.01 * wall.width
+        and one.width > 0.8 * wall.width
+    ]
+    assert len(near) == 1
+    assert sum(is_false(in_world(one, simulated), simulated.walls) for one in found) <= plain
+
+
+def _with_ghosts(structure: Structure, wall: Wall, count: int) -> Structure:
+    """More points, in a plane as far behind a wall as two photos that see it are before it."""
+    seen = np.bincount(
+        structure.image_of[np.isin(structure.point_of, wall.point_rows)],
+        minlength=len(structure.image_ids),
+    )
+    photos = np.argsort(seen)[[-1, -2]]
+    centres = structure.centres()[photos]
+    away = float(((centres[:, :2] - wall.start) @ wall.outward).mean())
+    rng = np.random.default_rng(3)
+    along, z = rng.uniform(-0.3, 1.3, count), rng.uniform(wall.bottom, 2 * wall.top, count)
+    flat = wall.start - away * wall.outward + np.outer(along * wall.width, wall.along)
+    ghosts = np.column_stack([flat, z])
+    first, rows = len(structure.points), np.arange(count)
+    keypoints = list(structure.keypoints_px)
+    starts = [len(keypoints[photo]) for photo in photos]
+    for photo in photos:
+        pose = structure.cam_from_world[photo]
+        local = ghosts @ pose[:, :3].T + pose[:, 3]
+        pixels = structure.camera(int(photo)).img_from_cam(local)
+        keypoints[photo] = np.vstack([keypoints[photo], pixels])
+    return replace(
+        structure,
+        keypoints_px=tuple(keypoints),
+        points=np.vstack([structure.points, ghosts]),
+        colours=np.vstack([structure.colours, np.zeros((count, 3), np.uint8)]),
+        image_of=np.concatenate([structure.image_of, np.repeat(photos, count)]),
+        keypoint_of=np.concatenate([structure.keypoint_of, *(rows + start for start in starts)]),
+        point_of=np.concatenate([structure.point_of, first + rows, first + rows]),
+    )

@@ -18,7 +18,7 @@ from veduta.photos.walls.ends import dense_range, with_closed_corners, without_o
 from veduta.photos.walls.lines import Line, best_line, fitted
 from veduta.photos.walls.plan_view import TURNED, PlanView, plan_view
 from veduta.photos.walls.point_quality import NEIGHBOURS, point_quality, typical_reach
-from veduta.photos.walls.sight import Sights, share_seen_through, sights_of
+from veduta.photos.walls.sight import Sights, share_hidden, share_seen_through, sights_of
 from veduta.photos.walls.spans import Bounds, filled_height, spans
 from veduta.photos.walls.steps import parting
 from veduta.photos.walls.wall import Wall
@@ -52,6 +52,8 @@ FACES = 0.906
 A line askew through many things has points on each, that face elsewhere."""
 SEEN_THROUGH = 0.3
 """Share of the lines of sight that may pass a wall and end behind it."""
+HIDDEN = 0.5
+"""Share of the lines of sight to a wall's points that may go through walls with more points."""
 FILLED = 0.3
 """Least share of a wall's height that its points fill in the middle one of stretches along it."""
 
@@ -89,6 +91,7 @@ def find_walls(structure: Structure, options: WallOptions, seed: int) -> tuple[W
     walls = [_wall(view, candidate) for candidate in candidates]
     walls.sort(key=lambda wall: -len(wall.point_rows))
     walls = _without_relief(walls, RELIEF * view.reach)
+    walls = _without_hidden(walls, structure, RELIEF * view.reach)
     walls = with_closed_corners(walls, CORNER * view.reach)
     return _numbered(without_overshoot(walls, CORNER * view.reach))
 
@@ -296,6 +299,17 @@ def _without_relief(walls: list[Wall], deepest: float) -> list[Wall]:
     kept: list[Wall] = []
     for wall in walls:
         if not any(_is_relief(wall, other, deepest) for other in kept):
+            kept.append(wall)
+    return kept
+
+
+def _without_hidden(walls: list[Wall], structure: Structure, thickness: float) -> list[Wall]:
+    """Without what was taken for a wall behind a larger one: mirror images in its panes, and equal
+    windows of it that were taken for one another.
+    """
+    kept: list[Wall] = []
+    for wall in walls:
+        if share_hidden(wall, kept, structure, thickness) <= HIDDEN:
             kept.append(wall)
     return kept
 
