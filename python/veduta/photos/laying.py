@@ -14,7 +14,7 @@ from veduta.photos.city.lifted import lifted
 from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.options import PhotosOptions
-from veduta.photos.structure import Structure
+from veduta.photos.structure import Structure, without_parallel
 from veduta.photos.walls.find_walls import find_walls
 from veduta.photos.walls.step import photo_reader, set_upright
 from veduta.photos.walls.wall import Wall
@@ -80,6 +80,7 @@ def lay_components(
 
 
 def _upright(component: Component, photos: Sequence[PhotoRecord]) -> Component:
+    component = replace(component, structure=without_parallel(component.structure))
     component = which_way_up(component, photos)
     if looks_down(component.structure):
         return component

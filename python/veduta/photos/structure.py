@@ -17,6 +17,8 @@ from veduta.photos.mapping.engine import quiet_engine
 from veduta.photos.rigged import add_rig, frames_in, rigs_among
 from veduta.run.errors import NotFoundError
 
+PARALLEL_RAD = np.deg2rad(0.1)
+"""Lines of sight that meet at less tell a distance to no better than a quarter of it."""
 STRAY_SHARE = 0.02
 """Share of the points at each end of each axis that lie far off."""
 CAUCHY_PX = 1.0
@@ -312,3 +314,19 @@ def without_outliers(structure: Structure, most_px: float) -> Structure:
     seen = structure.observed(errors_px(structure) <= most_px)
     counts = np.bincount(seen.point_of, minlength=len(seen.points))
     return seen.with_points(counts >= 2)
+
+
+def without_parallel(structure: Structure, least_rad: float = PARALLEL_RAD) -> Structure:
+    """The same without points whose lines of sight are nearly parallel: how far off they lie,
+    nobody knows. A structure that has no others stays as it is.
+    """
+    along = structure.points[structure.point_of] - structure.centres()[structure.image_of]
+    along /= np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
+    middle = np.zeros_like(structure.points)
+    np.add.at(middle, structure.point_of, along)
+    middle /= np.maximum(np.linalg.norm(middle, axis=1), 1e-300)[:, None]
+    beside = np.linalg.norm(along - middle[structure.point_of], axis=1)
+    most = np.zeros(len(structure.points))
+    np.maximum.at(most, structure.point_of, beside)
+    kept = most >= 0.5 * least_rad
+    return structure.with_points(kept) if kept.any() and not kept.all() else structure

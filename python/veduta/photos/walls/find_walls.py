@@ -18,7 +18,14 @@ from veduta.photos.walls.ends import dense_range, with_closed_corners, without_o
 from veduta.photos.walls.lines import Line, best_line, fitted
 from veduta.photos.walls.plan_view import TURNED, PlanView, plan_view
 from veduta.photos.walls.point_quality import NEIGHBOURS, point_quality, typical_reach
-from veduta.photos.walls.sight import Sights, share_hidden, share_seen_through, sights_of
+from veduta.photos.walls.sight import (
+    SURE_PLACES,
+    Sights,
+    places_of,
+    share_hidden,
+    share_seen_through,
+    sights_of,
+)
 from veduta.photos.walls.spans import Bounds, filled_height, spans
 from veduta.photos.walls.steps import parting
 from veduta.photos.walls.wall import Wall
@@ -52,8 +59,9 @@ FACES = 0.906
 A line askew through many things has points on each, that face elsewhere."""
 SEEN_THROUGH = 0.3
 """Share of the lines of sight that may pass a wall and end behind it."""
-HIDDEN = 0.5
-"""Share of the lines of sight to a wall's points that may go through walls with more points."""
+HIDDEN, SURE = 0.5, 0.5
+"""Share of the lines of sight to a wall's points that may go through walls with more points, unless
+so many of its points are seen from enough places."""
 FILLED = 0.3
 """Least share of a wall's height that its points fill in the middle one of stretches along it."""
 
@@ -304,12 +312,14 @@ def _without_relief(walls: list[Wall], deepest: float) -> list[Wall]:
 
 
 def _without_hidden(walls: list[Wall], structure: Structure, thickness: float) -> list[Wall]:
-    """Without what was taken for a wall behind a larger one: mirror images in its panes, and equal
-    windows of it that were taken for one another.
+    """Without what was taken for a wall behind a larger one, whose equal windows were taken for one
+    another.
     """
+    places = places_of(structure)
     kept: list[Wall] = []
     for wall in walls:
-        if share_hidden(wall, kept, structure, thickness) <= HIDDEN:
+        sure = float((places[wall.point_rows] >= SURE_PLACES).mean())
+        if sure >= SURE or share_hidden(wall, kept, structure, thickness) <= HIDDEN:
             kept.append(wall)
     return kept
 

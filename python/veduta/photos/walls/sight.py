@@ -69,7 +69,9 @@ def share_seen_through(wall: Wall, sights: Sights, thickness: float) -> float:
     return int(through.sum()) / max(1, int(inside.sum()))
 
 
-def share_hidden(wall: Wall, walls: Sequence[Wall], structure: Structure, thickness: float) -> float:
+def share_hidden(
+    wall: Wall, walls: Sequence[Wall], structure: Structure, thickness: float
+) -> float:
     """Of all lines of sight to a wall's points, those that go through other walls."""
     rows = np.flatnonzero(np.isin(structure.point_of, wall.point_rows))
     sights = _sights(structure, rows)
