@@ -10,9 +10,10 @@ from veduta.photos.cameras.component import Component, finish_component
 from veduta.photos.cameras.plausible import absurd, cameras_by_group, focal_lengths
 from veduta.photos.intake.call import Call
 from veduta.photos.intake.from_colmap import HOW, given_model
-from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos
+from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos, with_focal
 from veduta.photos.mapping.at_once import require_focal_lengths
 from veduta.photos.mapping.mapping import left_out
+from veduta.photos.mapping.one_camera import TOLD, mapped_as_of_one_camera
 from veduta.photos.mapping.rigs import mapped_with_rig
 from veduta.photos.mapping.settling import Settled, map_settled
 from veduta.photos.matching.features import FeaturesJob, memory_of, run_features
@@ -59,6 +60,8 @@ def find_components(
             at_places, notes = at_positions(read.photos, told.positions)
             read = replace(read, photos=at_places)
             told.notes += notes
+        if options.camera.focal_px is not None:
+            read = replace(read, photos=with_focal(read.photos, options.camera.focal_px))
         told.photos = read.photos
         told.left += read.set_aside
         step.counts |= {"photos": len(read.photos), "set aside": len(told.left)}
@@ -79,7 +82,7 @@ def find_components(
         verified = sum(pair.verified > 0 for pair in told.pairs)
         step.counts |= {"pairs": len(told.pairs), "verified": verified}
     with timed_step(told.steps, "map") as step:
-        settled = _map(read, options, stages, progress)
+        settled, options = _map(read, options, stages, told, progress)
         settled, told.rig = mapped_with_rig(settled, read.photos, options, stages, progress)
         mapped, told.doubts, told.folded = settled.mapped, settled.dropped, settled.folded
         told.starts = mapped.starts
@@ -93,7 +96,9 @@ def find_components(
     with timed_step(told.steps, "cameras") as step:
         names = {photo.image_id: photo.name for photo in read.photos}
         held = told.rig is not None and told.rig.held
-        grown = [replace(structure_of(model, names), rig_held=held) for model in mapped.models]
+        given = options.camera.focal_px is not None
+        found = [structure_of(model, names) for model in mapped.models]
+        grown = [replace(one, rig_held=held, focal_held=given) for one in found]
         components, left = finish_components(grown, read.photos, options, progress)
         told.left += left
         told.notes += [note for component in components for note in component.notes]
@@ -232,6 +237,7 @@ def _match(
                 read.photos,
                 files,
                 per_photo=camera.cameras == "per-photo",
+                shared=camera.cameras == "shared",
                 fisheye=camera.lens == "fisheye",
             )
         match_pairs(database, pairs, options.match, options.random.seed, progress)
@@ -239,16 +245,23 @@ def _match(
 
 
 def _map(
-    read: ReadPhotos, options: PhotosOptions, stages: Stages, progress: StepProgress
-) -> Settled:
-    """The components; what a killed run has mapped of them is not mapped again."""
+    read: ReadPhotos, options: PhotosOptions, stages: Stages, told: Told, progress: StepProgress
+) -> tuple[Settled, PhotosOptions]:
+    """The components, and the options for what follows; a killed run's are not mapped again."""
     ids = [photo.image_id for photo in read.photos]
     with writing_to(stages.out):
-        return map_settled(
+        settled = map_settled(
             stages.database(),
             stages.mapping(),
             ids,
             options.random.seed,
             progress,
             options.map.mapping,
+            focal_held=options.camera.focal_px is not None,
         )
+    settled, one = mapped_as_of_one_camera(settled, read.photos, options, stages, progress)
+    if not one:
+        return settled, options
+    told.notes.append(TOLD)
+    camera = options.camera.model_copy(update={"cameras": "shared"})
+    return settled, options.model_copy(update={"camera": camera})

@@ -71,6 +71,13 @@ class CameraOptions(Options):
     principal_point: Literal["auto", "middle", "free"] = Field(
         default="auto", description="the middle of the photo, or found with the lens"
     )
+    focal_px: Annotated[float, Field(ge=50.0, le=200_000.0)] | None = Field(
+        default=None,
+        description=(
+            "focal length of the camera that took all photos (px), from a calibration: in place of"
+            " what EXIF says, and not adjusted"
+        ),
+    )
     rig: bool = Field(
         default=False,
         description=(

@@ -32,6 +32,11 @@ def starts_notes(
 
 def _why(start: Start) -> str:
     pair = start.pair
+    if start.chosen_by == "ahead":
+        return (
+            f"the camera moved ahead, and of the pairs that one may begin with there their rays are"
+            f" furthest apart ({pair.angle_deg:.1f}°)"
+        )
     if start.chosen_by == "engine":
         tried = (
             f"no map grew from the {counted(start.refused, 'pair')} that"

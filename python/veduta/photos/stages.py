@@ -20,7 +20,7 @@ from veduta.run.digests import result_key
 from veduta.run.outputs import writing_to
 from veduta.run.record import PRIVATE
 
-VERSION = "16"
+VERSION = "17"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = "photos"
 FOLDER = f"{PRIVATE}/photos"
@@ -68,6 +68,7 @@ class Stages:
         camera = self.options.camera
         fisheye = camera.lens == "fisheye"
         told: list[JsonValue] = [photos, self.options.random.seed, camera.cameras, fisheye]
+        told.append(camera.focal_px)
         if camera.rig:
             told.append(None if self.call.rig is None else self.call.rig.sha256)
         key = result_key("match", VERSION, self.options.match, told)
@@ -81,6 +82,10 @@ class Stages:
     def rig_database(self) -> Path:
         """The engine's database with the rig in it, as the map before it told."""
         return self.database().with_suffix(".rig.db")
+
+    def shared_database(self) -> Path:
+        """The same for photos that are taken to be of one camera."""
+        return self.database().with_suffix(".shared.db")
 
     def drop(self) -> None:
         """The run is finished: none of it is needed any more."""

@@ -43,6 +43,7 @@ class Structure:
     image_of, keypoint_of, point_of: (o,) the photo (row), its keypoint and the point (row) of each
     observation. frame_of: the frame of each photo that was taken with others by a rig, by image id;
     those of one frame keep their places to each other. rig_held: these are given, and stay.
+    focal_held: focal lengths are given, and stay.
     """
 
     cameras: Mapping[int, pycolmap.Camera]
@@ -58,6 +59,7 @@ class Structure:
     point_of: NDArray[np.int64]
     frame_of: Mapping[int, int] = field(default_factory=dict)
     rig_held: bool = False
+    focal_held: bool = False
 
     def camera(self, row: int) -> pycolmap.Camera:
         """The camera of a photo, by its row."""
@@ -275,6 +277,7 @@ def adjusted(
     options = pycolmap.BundleAdjustmentOptions()
     options.print_summary = False
     options.refine_principal_point = free_principal_point
+    options.refine_focal_length = not structure.focal_held
     options.refine_sensor_from_rig = bool(structure.frame_of) and not structure.rig_held
     if false_matches:
         options.ceres.loss_function_type = pycolmap.LossFunctionType.CAUCHY

@@ -75,6 +75,9 @@ def with_panoramas(call: Call, stages: Stages, progress: StepProgress = no_progr
     if call.models:
         remedy = "Give the views that the model was made of as DIR."
         raise InputError("--from-colmap", "has no use for panoramas", remedy)
+    if stages.options.camera.focal_px is not None:
+        remedy = "Leave it out: what is cut out of a panorama has a focal length that is known."
+        raise InputError("--focal-px", f"has no use for panoramas ({found[0].source.name})", remedy)
     folder = stages.views([panorama.source.sha256 for panorama in found])
     if not folder.exists():
         with writing_to(stages.out), atomic_folder(folder) as temporary:

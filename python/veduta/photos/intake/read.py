@@ -108,6 +108,19 @@ def read_photos(sources: Sequence[Source], progress: StepProgress = no_progress)
     return ReadPhotos(_numbered(in_order), tuple(set_aside))
 
 
+def with_focal(photos: Sequence[PhotoRecord], focal_px: float) -> tuple[PhotoRecord, ...]:
+    """The photos with a focal length that is known; InputError where they have several sizes."""
+    sizes = {(photo.width_px, photo.height_px): photo for photo in photos}
+    if len(sizes) > 1:
+        first, second, *_ = (f"{one.name} {w} x {h} px" for (w, h), one in sizes.items())
+        raise InputError(
+            "--focal-px", f"is of one camera, and the photos have several sizes: {first}, {second}",
+            "Leave it out, or give photos of one camera, all held the same way.",
+        )  # fmt: skip
+    known = [replace(photo, focal_px=focal_px, focal_source=None) for photo in photos]
+    return _numbered(known)
+
+
 def sizes_of(sources: Sequence[Source]) -> dict[str, tuple[int, int]]:
     """Width and height (px) of the upright photos by name; without those that cannot be read."""
     sizes: dict[str, tuple[int, int]] = {}

@@ -11,7 +11,7 @@ from __future__ import annotations
 import shutil
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
@@ -24,6 +24,7 @@ import pycolmap
 from veduta.photos.mapping.grown import Grown, read_grown, write_grown
 from veduta.photos.mapping.initial_pair import (
     FEWEST,
+    LEAST_ANGLE_AHEAD_DEG,
     LEAST_ANGLE_DEG,
     Start,
     WeighedPair,
@@ -34,6 +35,8 @@ from veduta.run.threads import available_cores
 
 MOST_TRIED = 8
 """Pairs that meet the conditions from which growing is tried, before the engine chooses."""
+MANY = 100
+"""Matches off a plane that make a small angle sure: pairs ahead with fewer come last."""
 RELAXED = ((100, 16.0), (50, 16.0), (50, 8.0), (25, 8.0), (25, 4.0))
 """What the engine asks of a first pair that it chooses, in turn: agreeing features, and degrees
 between its rays."""
@@ -58,7 +61,7 @@ class Growth:
 
     image_ids: the photos that wait for one, which are those of the cache. snapshots: a folder of
     its own, which may hold what an earlier run left. rig: whether the database has one, and whether
-    how its cameras are fixed is adjusted with the rest.
+    how its cameras are fixed is adjusted with the rest. focal_held: whether focal lengths stay.
     """
 
     database: Path
@@ -68,6 +71,7 @@ class Growth:
     smallest: int
     seed: int
     rig: RigKind = "none"
+    focal_held: bool = False
 
 
 @dataclass
@@ -82,8 +86,8 @@ def grow(growth: Growth, registered: Callable[[int], None]) -> Grown | None:
     """The component that the best first pair begins, or the one that was begun and not ended.
 
     Pairs that meet the conditions of the thesis are tried first, in their order; then those that
-    the engine chooses. None where no pair begins one. registered: is told how many photos it has,
-    after each.
+    the engine chooses; then those of a camera that moved ahead. None where no pair begins one.
+    registered: is told how many photos it has, after each.
     """
     begun = read_snapshot(growth.snapshots)
     if begun is not None:
@@ -91,7 +95,8 @@ def grow(growth: Growth, registered: Callable[[int], None]) -> Grown | None:
         if (grown := trial.run(begun)) is not None:
             return grown
     tried = _Tried()
-    for pair in _meeting_conditions(growth, tried):
+    weighed = list(weighed_pairs(growth.database, growth.image_ids, growth.seed))
+    for pair in _meeting_conditions(weighed, tried):
         start = Start(pair, "conditions", tried.passed_over, tried.refused)
         # The engine takes single points by the same angle: half of the median keeps most of them.
         bounds = (FEWEST, LEAST_ANGLE_DEG / 2)
@@ -101,7 +106,8 @@ def grow(growth: Growth, registered: Callable[[int], None]) -> Grown | None:
         tried.refused += 1
         if tried.refused == MOST_TRIED:
             break
-    return _grown_from_engines_choice(growth, registered, tried)
+    grown = _grown_from_engines_choice(growth, registered, tried)
+    return grown if grown is not None else _grown_ahead(growth, registered, weighed, tried)
 
 
 def _told(start: Start, pair: tuple[int, int]) -> Start:
@@ -109,8 +115,8 @@ def _told(start: Start, pair: tuple[int, int]) -> Start:
     return start
 
 
-def _meeting_conditions(growth: Growth, tried: _Tried) -> Iterator[WeighedPair]:
-    for pair in weighed_pairs(growth.database, growth.image_ids, growth.seed):
+def _meeting_conditions(weighed: Sequence[WeighedPair], tried: _Tried) -> Iterator[WeighedPair]:
+    for pair in weighed:
         if pair.fault is None:
             yield pair
         else:
@@ -136,12 +142,35 @@ def _grown_from_engines_choice(
     return None
 
 
+def _grown_ahead(
+    growth: Growth,
+    registered: Callable[[int], None],
+    weighed: Sequence[WeighedPair],
+    tried: _Tried,
+) -> Grown | None:
+    """From photos that a camera took as it moved ahead, those first that are furthest apart.
+
+    The engine begins with none: where one looks the way one goes it takes a pose for uncertain.
+    Small angles are what such a path has; points near its sides, over several photos, have more.
+    """
+    ahead = [pair for pair in weighed if pair.begins_ahead]
+    ahead.sort(key=lambda one: (not one.known, one.telling < MANY, -(one.angle_deg or 0.0)))
+    for pair in ahead[:MOST_TRIED]:
+        start = Start(pair, "ahead", tried.passed_over, tried.refused)
+        bounds = (FEWEST, LEAST_ANGLE_AHEAD_DEG)
+        trial = _Trial(growth, registered, bounds, partial(_told, start), pair, ahead=True)
+        if (grown := trial.run()) is not None:
+            return grown
+        tried.refused += 1
+    return None
+
+
 class _Trial:
     """The engine with what is asked of a first pair, and the model that it grows, which is kept.
 
     bounds: as in `RELAXED`. start_of: what is to be told of the pair that a model begins with; None
     where it is only gone on with. pair: the one to begin with; the engine chooses where it is None,
-    and remembers which it has tried.
+    and remembers which it has tried. ahead: whether the way may lead where the camera looks.
     """
 
     def __init__(
@@ -151,6 +180,8 @@ class _Trial:
         bounds: tuple[int, float],
         start_of: Callable[[tuple[int, int]], Start] | None = None,
         pair: WeighedPair | None = None,
+        *,
+        ahead: bool = False,
     ) -> None:
         self.growth, self.registered, self.start_of = growth, registered, start_of
         options = _options(growth)
@@ -160,6 +191,8 @@ class _Trial:
         self.pipeline = pycolmap.IncrementalPipeline(options, growth.cache, manager)
         self.asked = self.pipeline.options.get_mapper()
         self.asked.init_min_num_inliers, self.asked.init_min_tri_angle = bounds
+        if ahead:
+            self.asked.init_max_forward_motion = 1.0
         self.mapper = pycolmap.IncrementalMapper(growth.cache)
         self.is_exhausted = False
         self.grown = Grown(pycolmap.Reconstruction(), None)
@@ -220,6 +253,7 @@ def _options(growth: Growth) -> pycolmap.IncrementalPipelineOptions:
     with pycolmap.Database.open(growth.database) as opened:
         sides = [max(camera.width, camera.height) for camera in opened.read_all_cameras()]
     options.mapper.abs_pose_max_error = float(np.clip(PLACING * np.median(sides), *PLACING_PX))
+    options.ba_refine_focal_length = not growth.focal_held
     # The engine warns of a trivial rig in each photo otherwise.
     options.ba_refine_sensor_from_rig = growth.rig == "adjusted"
     return options

@@ -7,7 +7,7 @@ hang together only among themselves become a model of their own, a component.
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -53,19 +53,26 @@ def map_photos(
     seed: int,
     progress: StepProgress = no_progress,
     rig: RigKind = "none",
+    *,
+    focal_held: bool = False,
 ) -> Mapped:
     """Poses and points of as many of the photos as hang together; none where none do.
 
     work: a folder for the components that are ended and the snapshots of the one in hand; where an
-    earlier call was killed, it goes on from them. The result differs in the last digits from run to
-    run where several threads add up, so it is kept: `write_models`.
+    earlier call was killed, it goes on from them. rig, focal_held: as in
+    `Growth`. The result differs in the last digits from run to run where several threads add up, so
+    it is kept: `write_models`.
     """
     quiet_engine()
     work.mkdir(exist_ok=True)
     ended = list(_read_numbered(work))
-    while (
-        found := _next_component(database, work, ended, image_ids, seed, progress, rig)
-    ) is not None:
+
+    def growth_of(waiting: tuple[int, ...], smallest: int) -> Growth:
+        snapshots = work / f"{_GROWING}{len(ended)}"
+        cache = _cache(database, waiting)
+        return Growth(database, waiting, cache, snapshots, smallest, seed, rig, focal_held)
+
+    while (found := _next_component(ended, image_ids, growth_of, progress)) is not None:
         write_grown(found, work / str(len(ended)))
         ended.append(found)
         for snapshots in work.glob(f"{_GROWING}*"):
@@ -83,13 +90,10 @@ def by_size(grown: Sequence[Grown]) -> Mapped:
 
 
 def _next_component(
-    database: Path,
-    work: Path,
     ended: Sequence[Grown],
     image_ids: Sequence[int],
-    seed: int,
+    growth_of: Callable[[tuple[int, ...], int], Growth],
     progress: StepProgress,
-    rig: RigKind,
 ) -> Grown | None:
     """One more of the photos that no ended component has; None where there is none."""
     placed = {image for one in ended for image in one.model.reg_image_ids()}
@@ -101,9 +105,7 @@ def _next_component(
     smallest = min(SMALLEST, len(image_ids))
     if len(waiting) < smallest:
         return None
-    snapshots = work / f"{_GROWING}{len(ended)}"
-    cache = _cache(database, waiting)
-    return grow(Growth(database, waiting, cache, snapshots, smallest, seed, rig), registered)
+    return grow(growth_of(waiting, smallest), registered)
 
 
 def _cache(database: Path, image_ids: Sequence[int]) -> pycolmap.DatabaseCache:

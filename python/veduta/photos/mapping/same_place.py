@@ -21,6 +21,9 @@ from veduta.photos.structure import Structure
 
 SAME_DEG = 2.0
 """Angle between the rays to what both see up to which two photos stand in one place."""
+AHEAD = 0.035
+"""Way along the view as a share of how far off that is, up to which they do: what `SAME_DEG` allows
+to the side. Who goes ahead sees all under small angles and, at the rim, other things."""
 STILL = 0.03
 """Share of the longer side of a photo by which what matches may move from one to the other in the
 middle: where it moves more they do not stand in one place, whatever the model says."""
@@ -48,6 +51,7 @@ def different_places(
     if not near:
         return frozenset()
     row_of = {image: row for row, image in enumerate(structure.image_ids)}
+    near = [pair for pair in near if _ahead(structure, *(row_of[id_] for id_ in pair)) <= AHEAD]
     repeated = _repeated(matched)
     found = set()
     for pair in near:
@@ -56,6 +60,19 @@ def different_places(
         if differing >= max(FEWEST, DIFFERS * telling):
             found.add(pair)
     return frozenset(found)
+
+
+def _ahead(structure: Structure, first: int, second: int) -> float:
+    """How far the second photo (rows) was taken before or behind the first, along its view, as a
+    share of the middle distance of what both see; 0 where they see nothing together.
+    """
+    seen = [structure.point_of[structure.image_of == row] for row in (first, second)]
+    both = structure.points[np.intersect1d(*seen)]
+    if not len(both):
+        return 0.0
+    places, view = structure.centres()[[first, second]], structure.cam_from_world[first, 2, :3]
+    off = float(np.median(np.linalg.norm(both - places[0], axis=1)))
+    return abs(float(view @ (places[1] - places[0]))) / max(off, 1e-12)
 
 
 def _repeated(matched: Matched) -> dict[int, NDArray[np.int64]]:

@@ -59,11 +59,13 @@ def map_settled(
     progress: StepProgress = no_progress,
     kind: MapKind = "incremental",
     rig: RigKind = "none",
+    *,
+    focal_held: bool = False,
 ) -> Settled:
     """Map the photos of a database until their pairs agree.
 
-    work: a folder for what is finished; a call that was killed goes on from there. rig: as in
-    `Growth`.
+    work: a folder for what is finished; a call that was killed goes on from there. rig,
+    focal_held: as in `Growth`.
     """
     work.mkdir(exist_ok=True)
     dropped: tuple[Doubt, ...] = ()
@@ -71,7 +73,7 @@ def map_settled(
     def mapped_from(source: Path, growing: Path) -> Mapped:
         if kind == "global":
             return map_at_once(source, growing, image_ids, seed, progress)
-        return map_photos(source, growing, image_ids, seed, progress, rig)
+        return map_photos(source, growing, image_ids, seed, progress, rig, focal_held=focal_held)
 
     for number in range(ROUNDS):
         mapped = _mapped(database, work, number, dropped, mapped_from)

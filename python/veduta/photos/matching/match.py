@@ -47,19 +47,21 @@ def write_database(
     features: Sequence[Path],
     *,
     per_photo: bool,
+    shared: bool = False,
     fisheye: bool = False,
 ) -> None:
     """Write a new database with cameras, photos and features; whole or not at all.
 
     per_photo: each photo has its own camera; else those of a group whose focal length EXIF tells,
     and the frames of a film, share one. Where EXIF tells nothing, two photos of one size may still
-    come from two cameras. fisheye: all photos are of such lenses.
+    come from two cameras; shared: those of a group are said to be of one all the same. fisheye: all
+    photos are of such lenses.
     """
     with atomic_write(path) as temporary, pycolmap.Database.open(temporary) as database:
         database.clear_all_tables()
         rigs: dict[int, int] = {}
         for photo, file in zip(photos, features, strict=True):
-            own = per_photo or not photo.one_camera
+            own = per_photo or not (shared or photo.one_camera)
             # Groups and photos are numbered from 1 on; a camera is one or the other.
             number = photo.image_id if own else len(photos) + photo.group
             if number not in rigs:
