@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
 from veduta.plan.clean.denoise import denoised
+from veduta.plan.clean.fields import without_fields
 from veduta.plan.clean.focus import focused
 from veduta.plan.clean.straighten import laid_straight, skew, work_scale
 from veduta.plan.drawn import Cleaned
@@ -60,7 +61,7 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
         notes.append("out of focus: its blur was taken back")
     rotation = skew(pixels)
     straight, clean_from_scan = laid_straight(pixels, rotation, work_scale(width, height))
-    dark = inks.darkness(straight)
+    dark = inks.darkness(without_fields(straight))
     ink = _without_border(inks.ink_of(dark))
     ink = inks.without_shades(ink, inks.marks(ink))
     mask = inks.marks(ink)

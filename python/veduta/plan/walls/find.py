@@ -16,6 +16,7 @@ from veduta.plan.walls.jogs import jogs
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
 from veduta.plan.walls.outlines import without_half_outline
+from veduta.plan.walls.pale import pale_walls
 from veduta.plan.walls.pieces import Piece, straight_pieces
 from veduta.plan.walls.solid import (
     Thickness,
@@ -127,7 +128,10 @@ def _solid(cleaned: Cleaned, way: Way) -> tuple[NDArray[np.bool_], Thickness]:
     if drawing == "single-line":
         # The edges of lines are as pale as panes: without them all lines are thinner.
         thickness = wall_thickness(dark, cleaned.line_px) or thickness
+    every = solid
     solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
+    if drawing == "filled":
+        solid = solid | pale_walls(every, solid, thickness)
     return (without_blobs(solid, thickness) if drawing == "filled" else solid), thickness
 
 

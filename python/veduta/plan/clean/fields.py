@@ -1,0 +1,131 @@
+"""Lawns, decks and floors of one tone, which are broader than walls: paper, however dark.
+
+Sellers colour what lies around a house and in it. Such a field would be ink, and the house in it a
+hole; it is painted white, and what is much darker in it stays: walls and lines.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.clean.ink import LEAST_CONTRAST
+
+
+@dataclass(frozen=True)
+class FieldRule:
+    """What is a field. Darkness is that of the darkest channel, 0 to 1.
+
+    broad: at least so broad both ways, as a share of the drawing's longer side: walls are not.
+    dark: and at least so dark: paler floors are no ink as it is.
+    pale: and at most so dark, of the darkest ink.
+    much: all fields together cover so much of the sheet at least.
+    alike: what is connected with a field, near it, and differs by so little is of it ...
+    thin: ... if it is not thinner than this part of `broad`: panes are no lawn.
+    hued, same: a colour whose channels are so far apart is a lawn, and goes on where they differ by
+    so little (0 to 255), however narrow it is.
+    beyond: ink in a field is darker than it by this part of what is left to the darkest.
+    grain_px, grainy: grass and wood have a grain, which is smoothed so far first, where it is so
+    strong at the median.
+    white, paper: this share of the sheet is at most so dark; on a sheet in the shade all would be
+    a field.
+    steep, sharp: this share of a field's edge is as steep as this part of its tone: shadows end
+    softly.
+    """
+
+    broad: float = 0.05
+    dark: float = 0.2
+    pale: float = 0.8
+    much: float = 0.02
+    alike: float = 0.14
+    thin: float = 0.2
+    hued: float = 60.0
+    same: float = 24.0
+    beyond: float = 0.4
+    grain_px: float = 2.0
+    grainy: float = 0.02
+    white: float = 0.1
+    paper: float = 0.25
+    steep: float = 0.4
+    sharp: float = 0.4
+
+
+RULE = FieldRule()
+MOST_COLOURS = 6
+
+
+def without_fields(pixels: NDArray[np.uint8], rule: FieldRule = RULE) -> NDArray[np.uint8]:
+    """sRGB pixels (h, w, 3), dark on light, with fields painted white; the same where none are."""
+    dark = (np.float32(255.0) - pixels.min(axis=2).astype(np.float32)) / np.float32(255.0)
+    seen = dark > LEAST_CONTRAST
+    if seen.mean() < rule.much or (dark < rule.white).mean() < rule.paper:
+        return pixels
+    darkest = float(np.percentile(dark[seen], 98))
+    smooth = np.asarray(cv2.GaussianBlur(dark, (0, 0), rule.grain_px), np.float32)
+    field, tone = _fields(smooth, seen, darkest, rule)
+    if field.mean() < rule.much:
+        return pixels
+    field = _sharp(field, smooth, tone, rule)
+    lawn = _lawn(pixels, field, rule)
+    tone = np.where(lawn, np.maximum(smooth, tone), tone)
+    field = field | lawn
+    # Thin lines on plain colours are seen as they are, those on grass without its grain.
+    grain = float(np.median(np.abs(dark - smooth)[field])) if field.any() else 0.0
+    fine = cv2.GaussianBlur(dark, (0, 0), 0.5 * rule.grain_px) if grain > rule.grainy else dark
+    stays = fine > tone + rule.beyond * (darkest - tone)
+    return np.where((field & ~stays)[:, :, None], np.uint8(255), pixels)
+
+
+def _fields(
+    smooth: NDArray[np.float32], seen: NDArray[np.bool_], darkest: float, rule: FieldRule
+) -> tuple[NDArray[np.bool_], NDArray[np.float32]]:
+    """Where fields are, and how dark each is."""
+    rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
+    side = max(3, round(rule.broad * float(max(np.ptp(rows), np.ptp(columns)))))
+    square = np.ones((side, side), np.uint8)
+    level = np.asarray(cv2.morphologyEx(smooth, cv2.MORPH_OPEN, square), np.float32)
+    core = (level > rule.dark) & (level < rule.pale * darkest)
+    around = cv2.dilate(np.where(core, level, np.float32(0.0)), square)
+    rim = (around > 0) & (np.abs(smooth - around) < rule.alike)
+    least = np.ones((2 * round(rule.thin * side / 2.0) + 1,) * 2, np.uint8)
+    like = cv2.morphologyEx((core | rim).astype(np.uint8), cv2.MORPH_OPEN, least)
+    _, labels = cv2.connectedComponents(like, connectivity=4)
+    own = np.unique(labels[core])
+    return np.isin(labels, own[own > 0]), np.where(core, level, around).astype(np.float32)
+
+
+def _sharp(
+    field: NDArray[np.bool_],
+    smooth: NDArray[np.float32],
+    tone: NDArray[np.float32],
+    rule: FieldRule,
+) -> NDArray[np.bool_]:
+    """Those of the fields that end sharply."""
+    reach = np.ones((2 * round(2.0 * rule.grain_px) + 1,) * 2, np.uint8)
+    slope = cv2.dilate(smooth, reach) - cv2.erode(smooth, reach)
+    inner = cv2.erode(field.astype(np.uint8), np.ones((3, 3), np.uint8))
+    count, labels = cv2.connectedComponents(field.astype(np.uint8), connectivity=4)
+    edge = field & (inner == 0)
+    at = labels[edge]
+    steep = np.bincount(at, slope[edge] > rule.steep * tone[edge], minlength=count)
+    kept = steep > rule.sharp * np.bincount(at, minlength=count)
+    kept[0] = False
+    return np.asarray(kept[labels], np.bool_)
+
+
+def _lawn(
+    pixels: NDArray[np.uint8], field: NDArray[np.bool_], rule: FieldRule
+) -> NDArray[np.bool_]:
+    """Where the strong colours of fields go on in places that are as narrow as walls."""
+    soft = np.asarray(cv2.GaussianBlur(pixels, (0, 0), 1.5 * rule.grain_px), np.float32)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(field.astype(np.uint8))
+    found = np.zeros(field.shape, np.bool_)
+    for label in 1 + np.argsort(-stats[1:, cv2.CC_STAT_AREA])[:MOST_COLOURS]:
+        colour = np.median(soft[labels == label], axis=0)
+        if np.ptp(colour) >= rule.hued:
+            found |= np.abs(soft - colour.astype(np.float32)).max(axis=2) <= rule.same
+    least = np.ones((2 * round(rule.grain_px) + 1,) * 2, np.uint8)
+    return np.asarray(cv2.dilate(found.astype(np.uint8), least) > 0, np.bool_)

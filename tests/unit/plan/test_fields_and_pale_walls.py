@@ -1,0 +1,70 @@
+"""Lawns are paper, inner walls in a paler tone are walls, and panes are neither."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+
+from veduta.plan.clean.fields import without_fields
+from veduta.plan.walls.pale import pale_walls
+from veduta.plan.walls.solid import Thickness
+
+GREEN, NAVY, GREY = (122, 178, 84), (18, 22, 58), (108, 108, 110)
+
+
+def sheet() -> np.ndarray:
+    """A house with dark outer walls of 14 px on a lawn, a grey inner wall, a thin grey line."""
+    pixels = np.full((600, 900, 3), 255, np.uint8)
+    cv2.rectangle(pixels, (80, 60), (820, 540), GREEN, -1)
+    grain = np.random.default_rng(3).normal(0.0, 20.0, (600, 900, 1))
+    lawn = (pixels == np.array(GREEN)).all(axis=2)
+    pixels[lawn] = np.clip(pixels + grain, 0, 255).astype(np.uint8)[lawn]
+    cv2.rectangle(pixels, (250, 160), (650, 440), NAVY, -1)
+    cv2.rectangle(pixels, (264, 174), (636, 426), (255, 255, 255), -1)
+    cv2.rectangle(pixels, (440, 174), (446, 426), GREY, -1)
+    return pixels
+
+
+def test_a_lawn_is_painted_white_and_walls_in_it_stay() -> None:
+    pixels = sheet()
+    cleared = without_fields(pixels)
+    assert (cleared[80:140, 100:800] == 255).mean() > 0.99
+    assert (cleared[163:171, 260:640] == np.array(NAVY)).all()
+    assert (cleared[200:400, 441:445] == np.array(GREY)).all()
+
+
+def test_plain_sheets_and_sheets_in_the_shade_stay_as_they_are() -> None:
+    plain = np.full((400, 400, 3), 255, np.uint8)
+    cv2.rectangle(plain, (50, 50), (350, 350), (0, 0, 0), 8)
+    assert without_fields(plain) is plain
+    shaded = (plain * 0.7).astype(np.uint8)
+    assert without_fields(shaded) is shaded
+
+
+def test_a_shadow_that_ends_softly_is_no_field() -> None:
+    pixels = np.full((600, 600, 3), 255.0)
+    away = np.hypot(*np.mgrid[-300:300, -300:300])
+    pixels -= 130.0 * np.clip((220.0 - away) / 160.0, 0.0, 1.0)[:, :, None]
+    shadow = pixels.astype(np.uint8)
+    assert np.array_equal(without_fields(shadow), shadow)
+
+
+@pytest.mark.parametrize("turns", [True, False])
+def test_pale_strokes_are_walls_where_they_go_around_corners(turns: bool) -> None:
+    dark = np.zeros((500, 700), np.bool_)
+    dark[50:450, 50:650] = True
+    dark[64:436, 64:636] = False
+    pale = np.zeros_like(dark)
+    if turns:
+        pale[64:250, 300:308] = pale[250:258, 120:500] = True
+        pale[420:436, 300:308] = True  # a stub beside a door
+    else:  # panes in an outer wall
+        dark[50:64, 200:500] = False
+        pale[53:61, 200:500] = True
+    found = pale_walls(dark | pale, dark, Thickness(6.0, 14.0))
+    assert found.any() == turns
+    if turns:
+        assert found[100:240, 302:306].all()
+        assert found[425:434, 302:306].all()
+        assert not (found & ~pale & ~dark).any()
