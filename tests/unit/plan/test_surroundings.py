@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,12 @@ from veduta.plan.house.build import House, build_house
 from veduta.plan.house.placing import place_of
 from veduta.plan.house.space import Space, space_of
 from veduta.plan.options import HouseOptions
-from veduta.plan.surroundings.build import GROUND, add_surroundings, build_surroundings
+from veduta.plan.surroundings.build import (
+    GROUND,
+    add_surroundings,
+    build_surroundings,
+    ground_part,
+)
 from veduta.plan.surroundings.plants import body, resting_height
 from veduta.plan.surroundings.terrain import DRIVE_M, LEVEL_M, terrain_of
 
@@ -130,3 +136,13 @@ def test_the_place_has_ground_to_walk_on() -> None:
 def test_the_same_house_has_the_same_garden() -> None:
     first, second = (build_surroundings(space(), HouseOptions()) for _ in range(2))
     assert first.plants == second.plants
+
+
+def test_ground_too_thin_for_single_precision_is_left_out_and_said() -> None:
+    terrain = terrain_of(space(), 0.0)
+    # It has a breadth in double precision alone.
+    thin = Polygon([(90.0, 3.0), (95.0, 3.0), (95.0, 3.0 + 1e-9)])
+    assert thin.area > 0.0
+    ground = ground_part(replace(terrain, areas=(*terrain.areas, ("drive", thin))))
+    assert len(ground.triangles.polygon_area_m2) == len(terrain.areas)
+    assert "drive" in ground.notes[-1]

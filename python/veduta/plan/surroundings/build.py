@@ -14,6 +14,7 @@ from veduta.place.place import UNMOVED, ModelFile, Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.house.frame import Sculptor, Surface, level
 from veduta.plan.house.looks import Looks
+from veduta.plan.house.sound import sound_part
 from veduta.plan.house.space import Space
 from veduta.plan.options import HouseOptions
 from veduta.plan.surroundings.plants import Plant, body, plants_of
@@ -42,7 +43,7 @@ def build_surroundings(space: Space, options: HouseOptions) -> Surroundings:
     terrain = terrain_of(space, options.ground_slope)
     windows = [hole.outline.buffer(2.2) for hole in space.holes if hole.low_m < 0.8]
     plants = tuple(plants_of(terrain, unary_union(windows)))
-    return Surroundings(terrain, plants, _ground(terrain), _garden(plants))
+    return Surroundings(terrain, plants, ground_part(terrain), _garden(plants))
 
 
 def add_surroundings(place: Place, around: Surroundings) -> None:
@@ -52,7 +53,8 @@ def add_surroundings(place: Place, around: Surroundings) -> None:
         place.add(part, standing, ModelFile(f"{part.id}.glb"))
 
 
-def _ground(terrain: Terrain) -> Part:
+def ground_part(terrain: Terrain) -> Part:
+    """The areas of the ground as a part, without what is too thin for single precision."""
     builder = PartBuilder(GROUND)
     sculptor = Sculptor(builder, Looks(builder))
     for kind, region in terrain.areas:
@@ -64,7 +66,7 @@ def _ground(terrain: Terrain) -> Part:
                 points = np.array(ring.coords)[:-1]
                 rings.append(np.column_stack([points, terrain.height(points)]))
             sculptor.face(rings, level(0.0), Surface(feature, kind))
-    return builder.build()
+    return sound_part(builder.build())
 
 
 def _garden(plants: tuple[Plant, ...]) -> Part | None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from shapely.geometry import Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
@@ -32,6 +33,8 @@ PATH_M, DRIVE_M = 1.4, 3.0
 _UNDER_M = 0.1
 """The ground reaches under the house by so much."""
 _FAR_M = 200.0
+_GRID_M = 1e-3
+"""Corners of areas lie on a grid: what is finer crosses itself in single precision."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +101,7 @@ def terrain_of(space: Space, slope_deg: float) -> Terrain:
         ("lawn", plot),
     )  # fmt: skip
     for kind, shape in layers:
-        own = solid_region(free.intersection(shape))
+        own = solid_region(shapely.set_precision(free.intersection(shape), _GRID_M))
         free = free.difference(shape)
         if not own.is_empty:
             areas.append((kind, own))
