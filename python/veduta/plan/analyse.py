@@ -36,6 +36,8 @@ from veduta.plan.scale.estimate import (
     judged_by,
     scale_notes,
 )
+from veduta.plan.scale.plausible import USUAL
+from veduta.plan.scale.same_pixels import of_same_pixels
 from veduta.plan.several_plans import StoreyDrawing, order_note, storeys_drawn
 from veduta.plan.sheets import Pixels
 from veduta.plan.stairs.find import true_flights
@@ -64,15 +66,17 @@ class _Read:
     """A storey that a drawing shows, before its scale is known. `doubts` are said at the terminal.
 
     sheet_px: height and width of a sheet whose edges may cut the plan off; None of vectors.
-    scale: finds the scale of a pixel of `drawn`, with what is to be said of it. of_file: leads the
-    frame of the cleaned sheet back to the file's own.
+    scale: finds the scale of a pixel of `drawn`, by what it shows and what others beside it show,
+    with what is to be said of it. sizes: what it shows, None of vectors. of_file: leads the frame
+    of the cleaned sheet back to the file's own.
     """
 
     drawn: Drawn
     sha256: str
     notes: Sequence[str]
     sheet_px: tuple[int, int] | None
-    scale: Callable[[], tuple[Scale, list[str]]]
+    scale: Callable[[Sequence[DrawnSizes]], tuple[Scale, list[str]]]
+    sizes: DrawnSizes | None
     of_file: Callable[[Sheet], Sheet]
     doubts: Sequence[str] = ()
 
@@ -87,12 +91,15 @@ def read_drawings(
     storeys: list[Storey] = []
     titles: list[StoreyName | None] = []
     sheets: list[Pixels] = []
+    every: list[Sequence[_Read]] = []
     for drawing in drawings:
         read = _read_vectors if is_dxf(drawing.path) else _read_pictures
-        shown = read(drawing, options, steps, progress)
+        every.append(read(drawing, options, steps, progress))
+    for drawing, shown in zip(drawings, every, strict=True):
         progress("scale and names", 0.0)
         with timed_step(steps, "scale and names") as step:
-            found = _storeys_of(drawing, shown, len(storeys), options)
+            others = _of_one_size(shown, every)
+            found = _storeys_of(drawing, shown, len(storeys), options, others)
             step.counts["evidence"] = sum(len(one.scale.evidence) for one, _ in found)
         storeys += [storey for storey, _ in found]
         titles += [storey_name(one.drawn.texts) for _, one in found]
@@ -100,8 +107,27 @@ def read_drawings(
     return ReadPlan(PlanDocument(storeys=registered(_named(storeys, titles))), sheets)
 
 
+def _of_one_size(shown: Sequence[_Read], every: Sequence[Sequence[_Read]]) -> list[DrawnSizes]:
+    """What other files show whose pixels are as large as those of this one; a storey in each."""
+    alone = [some[0] for some in every if len(some) == 1]
+    if len(shown) != 1 or shown[0].sizes is None:
+        return []
+    finer = _finer(shown[0].drawn)
+    alike = [
+        one.sizes
+        for one in alone
+        if one.sizes is not None and math.isclose(_finer(one.drawn), finer, rel_tol=1e-3)
+    ]
+    own = next(index for index, one in enumerate(alike) if one is shown[0].sizes)
+    return of_same_pixels(own, alike)
+
+
 def _storeys_of(
-    drawing: Drawing, shown: Sequence[_Read], below: int, options: PlanOptions
+    drawing: Drawing,
+    shown: Sequence[_Read],
+    below: int,
+    options: PlanOptions,
+    others: Sequence[DrawnSizes],
 ) -> list[tuple[Storey, _Read]]:
     """The storeys of a drawing, above so many others, with what each was read from.
 
@@ -111,7 +137,8 @@ def _storeys_of(
     faults: list[NotFoundError] = []
     for read in shown:
         try:
-            found.append((_storey(below + len(found), drawing, read, options), read))
+            storey = _storey(below + len(found), drawing, read, options, others)
+            found.append((storey, read))
         except NotFoundError as fault:
             faults.append(fault)
     if not found:
@@ -133,9 +160,11 @@ def _named(storeys: Sequence[Storey], titles: Sequence[StoreyName | None]) -> li
     return named
 
 
-def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> Storey:
+def _storey(
+    index: int, drawing: Drawing, read: _Read, options: PlanOptions, others: Sequence[DrawnSizes]
+) -> Storey:
     """The storey of a drawing, the index-th from below; InputError where it is no house's."""
-    scale, said = read.scale()
+    scale, said = read.scale(others)
     metres_per_px = scale.metres_per_px
     drawn = replace(read.drawn, stairs=true_flights(read.drawn, metres_per_px))
     drawn, ways_in = with_ways_in(drawn, metres_per_px)
@@ -191,8 +220,8 @@ def _read_pictures(
     height, width = sheet.pixels.shape[:2]
     sizes = [_drawn_sizes(one, scan) for one in drawn]
 
-    def scale(index: int) -> tuple[Scale, list[str]]:
-        others = [*sizes[:index], *sizes[index + 1 :]]
+    def scale(index: int, beside: Sequence[DrawnSizes]) -> tuple[Scale, list[str]]:
+        others = [*sizes[:index], *sizes[index + 1 :], *beside]
         return _picture_scale(drawn[index], sizes[index], others, options)
 
     said = order_note(plans) if len(drawn) > 1 else []
@@ -203,6 +232,7 @@ def _read_pictures(
             scan.notes,
             (height, width),
             partial(scale, index),
+            sizes[index],
             lambda own: sheet_of_file(own, sheet),
             said if index == 0 else (),
         )
@@ -242,7 +272,13 @@ def _read_vectors(
         step.counts |= plan.counts | _counts(plan.drawn)
     return [
         _Read(
-            plan.drawn, plan.sha256, plan.notes, None, lambda: _vector_scale(plan), lambda own: own
+            plan.drawn,
+            plan.sha256,
+            plan.notes,
+            None,
+            lambda _: _vector_scale(plan),
+            None,
+            lambda own: own,
         )
     ]
 
@@ -306,13 +342,23 @@ def _drawn_sizes(drawn: Drawn, scan: Scan) -> DrawnSizes:
     finer = _finer(drawn)
     return DrawnSizes(
         rooms=[room.outline_px for room in drawn.rooms],
-        doors=[one.width_px for one in drawn.openings if one.kind == "door"],
+        doors=_door_widths(drawn),
         walls=[wall.thickness_px for wall in drawn.walls],
         ink=drawn.cleaned.ink,
         dpi=None if scan.dpi is None else scan.dpi * finer,
         on_paper=scan.on_paper,
         texts=drawn.texts,
     )
+
+
+def _door_widths(drawn: Drawn) -> list[float]:
+    """Of doors; where few are drawn, of plain gaps between two rooms, too, as these are doors."""
+    doors = [one.width_px for one in drawn.openings if one.kind == "door"]
+    if len(doors) >= USUAL.few:
+        return doors
+    rooms = Counter(name for room in drawn.rooms for name in room.openings)
+    gaps = [one.width_px for one in drawn.openings if one.kind == "gap" and rooms[one.id] == 2]
+    return [*doors, *gaps] if len(gaps) >= USUAL.few else doors
 
 
 def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:

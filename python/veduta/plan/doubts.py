@@ -9,8 +9,9 @@ import numpy as np
 from shapely.geometry import Polygon
 
 from veduta.plan.document import PlanDocument, Sheet, Storey
+from veduta.plan.house.flights import stairwells
 from veduta.plan.house.lines import footprint, wall_lines
-from veduta.plan.house.space import filled
+from veduta.plan.house.space import Space, filled
 from veduta.plan.names.strays import stray_names
 from veduta.plan.remarks import closed_in, plans_apart
 from veduta.plan.scale.estimate import scale_notes
@@ -25,8 +26,10 @@ UNLIKE_STOREYS = 0.7
 """Storeys of which one covers less than this part of the other are told of."""
 
 
-def doubts(document: PlanDocument, tour: Tour | None) -> list[str]:
-    """One sentence each: how the sheet lay, scale, rooms, storeys, and what the tour leaves out."""
+def doubts(document: PlanDocument, tour: Tour | None, spaces: Sequence[Space] = ()) -> list[str]:
+    """One sentence each: how the sheet lay, scale, rooms, storeys, stairs, and what the tour leaves
+    out. `spaces` are the storeys as they are built, which know their stairs.
+    """
     several = len(document.storeys) > 1
     said = []
     for storey in document.storeys:
@@ -42,6 +45,8 @@ def doubts(document: PlanDocument, tour: Tour | None) -> list[str]:
         )
         said += [of + note for note in notes]
     said += [*upper_floor_doubts(document), *unlike_storeys(document.storeys), *_north(document)]
+    # How thick the slab is matters for wells alone.
+    said += [note for well in stairwells(spaces, 0.0) for note in well.notes]
     return [*said, *(() if tour is None else tour.notes)]
 
 

@@ -299,7 +299,7 @@ def _make(
             **measures(result.document),
             MADE_FROM: made_from,
             OTHERWISE: otherwise,
-            DOUBTS: [*doubts(result.document, result.tour)],
+            DOUBTS: [*doubts(result.document, result.tour, result.house.spaces)],
         }
         opened.publish(CALL, key, work, summary)
     if opened.standing is not Standing.AMENDED:

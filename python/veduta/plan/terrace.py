@@ -120,7 +120,7 @@ def with_terrace(document: PlanDocument, options: HouseOptions, *, by_text: bool
                 ]
             }
         )
-        doubts = _doubts(sides, rows, why)
+        doubts = _doubts(storeys, sides, rows, why)
     elif why:
         doubts = [
             f"{why}, but no side is a straight wall without windows and doors: it stands alone."
@@ -136,7 +136,14 @@ def _decided(
     document: PlanDocument, sides: Sequence[Sequence[Side]], options: HouseOptions, *, by_text: bool
 ) -> tuple[tuple[int, ...], str]:
     """The party sides, and why; no sides where none can be, no reason where nobody asks."""
-    said = terrace_named(text for storey in document.storeys for text in storey.texts)
+    # "End terrace" may be the name of a garden's terrace that was found.
+    rooms = {room.name.lower() for one in document.storeys for room in one.rooms if room.name}
+    said = terrace_named(
+        text
+        for storey in document.storeys
+        for text in storey.texts
+        if text.text.strip().lower() not in rooms
+    )
     if options.terraced:
         return party_rows(sides, "mid" if said is None else said[0], closed=True), "--terraced"
     if not by_text:
@@ -147,7 +154,9 @@ def _decided(
     return rows, _THICK if rows else ""
 
 
-def _doubts(sides: Sequence[Sequence[Side]], rows: Sequence[int], why: str) -> list[str]:
+def _doubts(
+    storeys: Sequence[Storey], sides: Sequence[Sequence[Side]], rows: Sequence[int], why: str
+) -> list[str]:
     """What is to be said of party walls: why they are such, unless that was asked, and what is
     closed.
     """
@@ -157,7 +166,13 @@ def _doubts(sides: Sequence[Sequence[Side]], rows: Sequence[int], why: str) -> l
         doubts.append(
             f"taken for a house in a row, with party walls at the {names} of the page, as {why}."
         )
-    closed = [name for own in sides for row in rows for name in own[row].openings]
+    # Openings of two storeys may have one name.
+    closed = [
+        f"{name} of {storey.name}" if len(storeys) > 1 else name
+        for storey, own in zip(storeys, sides, strict=True)
+        for row in rows
+        for name in own[row].openings
+    ]
     if closed:
         doubts.append(
             f"closed in party walls at the {names} of the page: {', '.join(closed)}. If there are"

@@ -59,3 +59,12 @@ def test_a_slanted_stroke_that_hangs_on_a_wall_is_a_leaf() -> None:
     # Sides of a bay hang on something at both ends, and upright stubs are walls.
     assert free_leaves([*walls, *bay], 8.0, 60.0) == set()
     assert free_leaves([*walls, piece((200, 0), (200, 70))], 8.0, 75.0) == set()
+
+
+def test_a_leaf_that_begins_thinner_than_walls_points_at_the_wall_it_hangs_on() -> None:
+    """Its thick half stands free, 40 px from the end of the wall and 100 px from all others."""
+    walls = [piece((0, 0), (200, 0)), piece((275, 0), (500, 0))]
+    half = piece((228, 28), (256, 56))
+    assert free_leaves([*walls, half], 8.0, 75.0) == {2}
+    elsewhere = piece((328, 128), (356, 156))
+    assert free_leaves([*walls, elsewhere], 8.0, 75.0) == set()

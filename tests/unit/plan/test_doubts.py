@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from sample_plan import sample_plan
 
-from veduta.plan.document import Opening, PlanDocument, Scale, Text
+from veduta.plan.document import Opening, PlanDocument, Scale, Stairs, Text
 from veduta.plan.doubts import doubts
+from veduta.plan.house.space import space_of
 from veduta.plan.report import measures, summary_line
 
 
@@ -62,3 +63,16 @@ def test_an_arrow_to_the_north_that_is_not_read_is_said() -> None:
     assert doubts(plan.model_copy(update={"north_deg": 20.0}), None) == [
         one for one in doubts(plan, None) if one not in told
     ]
+
+
+def test_steep_stairs_are_said() -> None:
+    """Four treads to the next floor: steps of 56 cm, and nothing says which way they rise."""
+    flight = Stairs(
+        id="s1", outline_m=[(1.0, 1.0), (3.0, 1.0), (3.0, 1.9), (1.0, 1.9)], treads=4,
+        up=(0.0, 0.0), score=0.9, origin="measured",
+    )  # fmt: skip
+    lower = changed().storeys[0].model_copy(update={"stairs": [flight]})
+    upper = lower.model_copy(update={"name": "first floor", "elevation_m": 2.8, "stairs": []})
+    spaces = [space_of(one, 2.55) for one in (lower, upper)]
+    plan = changed().model_copy(update={"storeys": [lower, upper]})
+    assert any("are steep" in one for one in doubts(plan, None, spaces))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -40,6 +41,15 @@ def test_a_scale_by_which_doors_are_wrong_is_out() -> None:
     (kept,) = plausible([Voter("dimension", "11X12", "r", (absurd, right))], (low, high))
     assert kept.hypotheses == (right,)
     assert plausible([Voter("dimension", "11X12", "r", (absurd,))], (low, high)) == []
+
+
+def test_rooms_of_a_house_have_three_square_metres_on_average() -> None:
+    """Six rooms of 500 x 350 px and a cupboard, which does not count."""
+    cupboard = ROOM[0] + (ROOM - ROOM[0]) * 0.05
+    house = replace(sizes(), rooms=[*(ROOM + 600.0 * row for row in range(6)), cupboard])
+    assert limits_of(house)[0] == pytest.approx(math.sqrt(18.0 / (6 * 500 * 350)), rel=1e-2)
+    few = replace(house, rooms=house.rooms[:4])
+    assert limits_of(few)[0] == pytest.approx(max(0.3 / 79.0, math.sqrt(4.0 / (4 * 500 * 350))))
 
 
 def test_limits_that_contradict_each_other_leave_those_of_doors() -> None:

@@ -87,6 +87,15 @@ def test_an_end_house_has_one() -> None:
     assert len(party(found)) == 1
 
 
+def test_a_room_that_is_named_end_terrace_is_no_house() -> None:
+    storey = sample_plan().storeys[0]
+    rooms = [storey.rooms[0].model_copy(update={"name": "End terrace"}), *storey.rooms[1:]]
+    found = with_terrace(
+        changed(texts=[written("End terrace")], rooms=rooms), HouseOptions(), by_text=True
+    )
+    assert not party(found)
+
+
 def test_windows_speak_against_what_the_sheet_says() -> None:
     openings = sample_plan().storeys[0].openings
     sides = [window("we", "east", 2.0, 1.0), window("ww", "west", 2.0, 1.0)]
@@ -249,3 +258,14 @@ def test_the_plot_ends_at_the_neighbours() -> None:
     assert (left, right) == pytest.approx((-HALF, WIDTH_M + HALF), abs=1e-6)
     assert bottom < -10.0
     assert top > DEPTH_M + 10.0
+
+
+def test_openings_that_are_closed_are_named_with_their_storeys() -> None:
+    storey = sample_plan().storeys[0]
+    ground = storey.model_copy(
+        update={"openings": [*storey.openings, window("o7", "east", 2.0, 1.0)]}
+    )
+    upper = ground.model_copy(update={"name": "first floor", "elevation_m": 2.8})
+    plan = sample_plan().model_copy(update={"storeys": [ground, upper]})
+    said = with_terrace(plan, ASKED, by_text=True).storeys[0].doubts
+    assert any("o7 of ground floor, o7 of first floor" in one for one in said)

@@ -43,7 +43,8 @@ def leaf_pieces(pieces: Sequence[Piece], judged: Sequence[Judged]) -> set[int]:
 def free_leaves(pieces: Sequence[Piece], thin_px: float, door_px: float) -> set[int]:
     """Indices of slanted pieces that hang on a wall by one end alone, as long as a door is wide.
 
-    Leaves that are drawn without an arc: as walls they would end in a room.
+    Leaves that are drawn without an arc: as walls they would end in a room. Where a leaf begins
+    thinner than walls are, its end points at that of the wall that it hangs on.
     """
     ends = np.array([[one.start, one.end] for one in pieces])
     found = set()
@@ -57,9 +58,27 @@ def free_leaves(pieces: Sequence[Piece], thin_px: float, door_px: float) -> set[
             any(_away(end, one) <= HANGS * thin_px + one.thickness_px / 2 for one in others)
             for end in ends[index]
         ]
-        if touching.count(True) == 1:
+        rest_px = LONGER * door_px - piece.length_px
+        if touching.count(True) == 1 or (
+            not any(touching) and _points_at_an_end(piece, others, rest_px, HANGS * thin_px)
+        ):
             found.add(index)
     return found
+
+
+def _points_at_an_end(
+    piece: Piece, others: Sequence[Piece], rest_px: float, near_px: float
+) -> bool:
+    """Whether an end of a wall lies ahead of one end of a piece, and none ahead of the other."""
+    spots = np.array([spot for one in others for spot in (one.start, one.end)])
+    if len(spots) == 0:
+        return False
+    ahead = []
+    for end, way in ((piece.start, -piece.direction), (piece.end, piece.direction)):
+        along = (spots - end) @ way
+        beside = np.abs((spots - end) @ np.array([-way[1], way[0]]))
+        ahead.append(bool(((along > 0.0) & (along <= rest_px) & (beside <= near_px)).any()))
+    return ahead.count(True) == 1
 
 
 def _away(point: NDArray[np.float64], piece: Piece) -> float:

@@ -196,7 +196,7 @@ def _voted(voters: list[Voter]) -> Scale:
 
 
 def together(every: Sequence[DrawnSizes]) -> DrawnSizes:
-    """What storeys on one sheet show, as if they were one."""
+    """What storeys on one sheet (or on sheets whose pixels are as large) show, as if one."""
     if len(every) == 1:
         return every[0]
     return replace(
@@ -205,8 +205,17 @@ def together(every: Sequence[DrawnSizes]) -> DrawnSizes:
         doors=[door for one in every for door in one.doors],
         walls=[wall for one in every for wall in one.walls],
         texts=[text for one in every for text in one.texts],
-        ink=np.max([one.ink for one in every], axis=0),
+        ink=_all_ink([one.ink for one in every]),
     )
+
+
+def _all_ink(every: Sequence[NDArray[np.float32]]) -> NDArray[np.float32]:
+    """The ink of all sheets on one that is as large as each of them."""
+    whole = np.zeros(np.max([one.shape for one in every], axis=0), np.float32)
+    for one in every:
+        part = whole[: one.shape[0], : one.shape[1]]
+        np.maximum(part, one, out=part)
+    return whole
 
 
 def _sharpened(told: Scale, every: Sequence[DrawnSizes]) -> Scale:

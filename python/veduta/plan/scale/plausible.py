@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.plan.scale.evidence import Voter
 
@@ -30,7 +31,11 @@ class HouseSizes:
     """The median wall, of at least `few`: a line of a pen to that of a castle."""
     rooms_m2: tuple[float, float] = (4.0, 60_000.0)
     """All rooms of a storey: the smallest flats have 9 m2."""
+    room_m2: float = 3.0
+    """The mean of at least `several` rooms, without those of less than `cupboard` of all."""
     few: int = 3
+    several: int = 5
+    cupboard: float = 0.02
 
 
 USUAL = HouseSizes()
@@ -46,9 +51,13 @@ def limits_of(sizes: DrawnSizes, house: HouseSizes = USUAL) -> tuple[float, floa
         if len(found) >= house.few:
             usual = float(np.median(found))
             bounds.append((allowed[0] / usual, allowed[1] / usual))
-    area_px2 = _area(sizes)
+    areas = [_area(one) for one in sizes.rooms]
+    area_px2 = sum(areas)
     if area_px2 > 0.0:
         least, most = house.rooms_m2
+        large = sum(one >= house.cupboard * area_px2 for one in areas)
+        if large >= house.several:
+            least = max(least, house.room_m2 * large)
         bounds.append((math.sqrt(least / area_px2), math.sqrt(most / area_px2)))
     low, high = 0.0, math.inf
     for lower, upper in bounds:
@@ -69,10 +78,7 @@ def plausible(voters: Sequence[Voter], limits: tuple[float, float]) -> list[Vote
     return kept
 
 
-def _area(sizes: DrawnSizes) -> float:
-    """Of all rooms, in square pixels, by the shoelace formula."""
-    total = 0.0
-    for outline in sizes.rooms:
-        x, y = np.asarray(outline, dtype=np.float64).T
-        total += 0.5 * abs(float(x @ np.roll(y, 1) - y @ np.roll(x, 1)))
-    return total
+def _area(outline: NDArray[np.float64]) -> float:
+    """Of a room, in square pixels, by the shoelace formula."""
+    x, y = np.asarray(outline, dtype=np.float64).T
+    return 0.5 * abs(float(x @ np.roll(y, 1) - y @ np.roll(x, 1)))
