@@ -14,6 +14,9 @@ from veduta.plan.openings.leaves import Arc
 
 LEAST_CHORD = 0.6
 LEAST_FOLD = 0.6
+LEAST_BARE, BARE_SCORE = 0.75, 0.75
+"""A leaf alone is drawn at least so well, and is less sure by this factor: a line may be another
+thing's."""
 LEAST_TONE = 0.05
 CENTRED = 0.3
 """Panels that slide past each other meet in a line so near to the wall's middle (half
@@ -88,7 +91,26 @@ def _drawn(
     limit = PLAIN_TO_SIDE if to_side else widest_plain
     if gap.width_px > limit * thin_px:
         return None
-    return Judged(gap, "gap", "plain", "none", "none", 0.5 * seen.empty + 0.2)
+    return _bare(gap, seen) or Judged(gap, "gap", "plain", "none", "none", 0.5 * seen.empty + 0.2)
+
+
+def is_bare(judged: Judged) -> bool:
+    """Whether an opening is a door by a leaf without its trace."""
+    return (
+        judged.seen is not None
+        and judged.type == "swing"
+        and bool(judged.seen.bare)
+        and (_door(judged.gap, judged.seen) is None)
+    )
+
+
+def _bare(gap: Gap, seen: Evidence) -> Judged | None:
+    """A way with a leaf beside it that is drawn without its trace."""
+    if not seen.bare or (leaf := seen.bare[0]).score < LEAST_BARE:
+        return None
+    score = BARE_SCORE * min(1.0, leaf.score)
+    hinge = _hinge(leaf.hinge_at_start)
+    return Judged(gap, "door", "swing", hinge, _side(leaf.side, False), score)
 
 
 def slides(seen: Evidence) -> bool:

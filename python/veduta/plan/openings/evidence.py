@@ -12,6 +12,7 @@ from veduta.plan.openings.leaves import (
     Arc,
     Fold,
     find_arcs,
+    find_bare,
     find_chords,
     find_folds,
     leaf_thickness,
@@ -28,6 +29,7 @@ from veduta.plan.openings.strip import Sheet, cut_strip
 
 SURE_ARC = 0.85
 LEAST_ARC = 0.5
+MOSTLY_EMPTY = 0.7
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,7 @@ class Evidence:
     `empty`: the share without ink; `step`: panels side by side (see `panel_step`); `pocket`: the
     way through beside a pocket; arcs, chords and folds best first; `leaf_px`: how thick the leaf
     of the best arc is drawn, 0 without one; `leaf_lines`: a line along each half of it, which lie
-    beside each other.
+    beside each other; `bare`: leaves without a trace, looked for where nothing lies in the gap.
     """
 
     lines: tuple[float, ...]
@@ -51,6 +53,7 @@ class Evidence:
     folds: tuple[Fold, ...]
     leaf_px: float
     leaf_lines: bool = False
+    bare: tuple[Arc, ...] = ()
 
     @property
     def inner(self) -> tuple[float, ...]:
@@ -72,11 +75,12 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
     # A whole arc leaves no doubt: what takes longer to look for is not looked for.
     doubtful = arcs[0].score < SURE_ARC
     lines = full_lines(strip)
+    empty = float((middle < 0.15).mean())
     return Evidence(
         lines=lines,
         tone=float(np.median(middle)) - strip.paper,
         shade=shade(strip),
-        empty=float((middle < 0.15).mean()),
+        empty=empty,
         step=panel_step(strip),
         pocket=pocket_share(strip),
         arcs=arcs,
@@ -84,6 +88,7 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
         folds=find_folds(gap, sheet) if doubtful and not _crossed(lines) else (),
         leaf_px=leaf_thickness(arcs[0], sheet) if arcs[0].score >= LEAST_ARC else 0.0,
         leaf_lines=leaf_lines(strip),
+        bare=find_bare(gap, sheet) if arcs[0].score < LEAST_ARC and empty > MOSTLY_EMPTY else (),
     )
 
 

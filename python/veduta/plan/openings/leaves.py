@@ -6,7 +6,7 @@ that an arc that is broken, dashed or drawn open by 60 degrees counts, too.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,10 @@ CROWDED = 0.6
 """What is drawn beside a trace speaks against it by so much."""
 
 CHORD_STEPS = 40
+BARE_ANGLES, BEYOND_STEPS = 11, 8
+BARE_THICK = 0.75
+"""Leaves are drawn thinner than their walls by this factor, at least."""
+
 FOLD_RUNS = (0.3, 0.38, 0.45, 0.55)
 """Each folded leaf reaches so much of its length along the wall."""
 
@@ -98,6 +102,12 @@ def find_chords(gap: Gap, sheet: Sheet) -> tuple[Arc, ...]:
     return tuple(sorted(found, key=lambda one: -one.score))
 
 
+def find_bare(gap: Gap, sheet: Sheet) -> tuple[Arc, ...]:
+    """Open leaves that are drawn as one line alone, at 40 to 90 degrees, and end there."""
+    found = [_bare(gap, sheet, frame) for frame in _frames(gap)]
+    return tuple(sorted(found, key=lambda one: -one.score))
+
+
 def find_folds(gap: Gap, sheet: Sheet) -> tuple[Fold, ...]:
     """The best zigzag for each hinge and side, of two or four leaves."""
     found = [_fold(gap, sheet, frame) for frame in _frames(gap)]
@@ -157,6 +167,33 @@ def _chord(gap: Gap, sheet: Sheet, frame: _Frame) -> Arc:
     best = float(max(0.0, score.max()))
     tip = np.asarray(hinge + sizes[size] * leaf)
     return Arc(best, frame.at_start, frame.side, 1.0, hinge, tip)
+
+
+def _bare(gap: Gap, sheet: Sheet, frame: _Frame) -> Arc:
+    """A line from the hinge that is as long as the gap is wide: a wall would go on."""
+    angles = np.radians(np.linspace(40.0, 90.0, BARE_ANGLES))
+    sizes = radii_px(gap.width_px)
+    hinges = frame.hinge + np.array(SLACK)[:, None] * gap.thickness_px * frame.opened
+    way = np.cos(angles)[:, None] * frame.closed + np.sin(angles)[:, None] * frame.opened
+    normal = np.cos(angles)[:, None] * frame.opened - np.sin(angles)[:, None] * frame.closed
+    width = max(3.0, 0.1 * gap.width_px)
+    shares = (np.linspace(0.12, 0.92, CHORD_STEPS), np.linspace(1.15, 1.4, BEYOND_STEPS))
+    # (slack, sizes, angles, steps, 2)
+    on, beyond = (
+        hinges[:, None, None, None] + sizes[None, :, None, None, None]
+        * (share[:, None] * way[:, None])[None, None]
+        for share in shares
+    )  # fmt: skip
+    drawn, crowded = _traced(sheet, on, width * normal[:, None])
+    further = sheet.marked(beyond).mean(axis=3)
+    score = drawn.mean(axis=3) - CROWDED * crowded.mean(axis=3) - further
+    slack, size, angle = np.unravel_index(int(np.argmax(score)), score.shape)
+    hinge = np.asarray(hinges[slack])
+    tip = np.asarray(hinge + sizes[size] * way[angle])
+    best = Arc(float(max(0.0, score.max())), frame.at_start, frame.side, 1.0, hinge, tip)
+    # Along a wall there is no leaf: it is as thick as the gap's own.
+    thick = leaf_thickness(best, sheet) > BARE_THICK * gap.thickness_px
+    return replace(best, score=0.0) if thick else best
 
 
 def _fold(gap: Gap, sheet: Sheet, frame: _Frame) -> Fold:

@@ -15,7 +15,7 @@ import numpy as np
 from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import OpeningType
-from veduta.plan.openings.classify import LEAST_TONE, Judged, judge, slides
+from veduta.plan.openings.classify import LEAST_TONE, Judged, is_bare, judge, slides
 from veduta.plan.openings.evidence import Evidence
 from veduta.plan.openings.score import likely
 from veduta.plan.openings.sky import leads_out
@@ -122,8 +122,11 @@ def _is_slit(judged: Judged, least_px: float) -> bool:
 
 
 def usual_door(judged: Sequence[Judged], fewest: int = 3) -> float | None:
-    """The median width of doors with leaves, in pixels; None where fewer are known."""
-    widths = [one.gap.width_px for one in judged if one.type == "swing"]
+    """The median width of doors with leaves, in pixels; None where fewer are known.
+
+    Leaves without their traces are too doubtful to say it.
+    """
+    widths = [one.gap.width_px for one in judged if one.type == "swing" and not is_bare(one)]
     return float(np.median(widths)) if len(widths) >= fewest else None
 
 
