@@ -26,6 +26,9 @@ from veduta.walk.read.photo_path import PhotoPath, between, centre_of
 from veduta.walk.record import Matrix, taken
 from veduta.walk.rig import Image, PairFiles, Rig
 
+BESIDE_RAD = 1.0
+"""Between the axes of views that overlap: views of a panorama are 45 degrees apart, 90 wide."""
+
 
 @dataclass(frozen=True, eq=False)
 class PanoramaRecord:
@@ -111,19 +114,34 @@ class PanoramaRecord:
         return np.asarray(np.linalg.inv(np.vstack([front.cam_from_world, [0.0, 0.0, 0.0, 1.0]])))
 
     @cached_property
-    def _sides(self) -> dict[int, tuple[list[int], FramePlanes]]:
-        """For each direction the views along the path, and their planes."""
-        sides = sorted({side for _, views in self.panoramas for side in views})
-        found = {}
-        for side in sides:
-            numbers = [views[side] for _, views in self.panoramas if side in views]
-            planes = FramePlanes(
-                [self.path.cameras[n] for n in numbers],
-                lambda n, numbers=numbers: self.path.picture(numbers[n]),  # type: ignore[misc]
-                lambda n, numbers=numbers: self.path.span(numbers[n]),  # type: ignore[misc]
-            )
-            found[side] = (numbers, planes)
-        return found
+    def _planes(self) -> FramePlanes:
+        most = 3 * max(len(views) for _, views in self.panoramas)
+        return FramePlanes(
+            self.path.cameras, self.path.picture, self.path.span, around=self.around, kept=most
+        )
+
+    @cached_property
+    def around(self) -> tuple[tuple[int, ...], ...]:
+        """The views that each is compared with: those to the same side, before and after.
+
+        At an end of the path there is one, and where it was taken ahead the rim of this one is
+        outside of it: there those beside it are asked, too.
+        """
+        found: dict[int, tuple[int, ...]] = {}
+        for side in sorted({side for _, views in self.panoramas for side in views}):
+            along = [views for _, views in self.panoramas if side in views]
+            for place, views in enumerate(along):
+                others = [along[n] for n in (place - 1, place + 1) if 0 <= n < len(along)]
+                same = tuple(other[side] for other in others)
+                more = self._overlapping(views[side], others[0]) if len(others) == 1 else []
+                found[views[side]] = (*same, *(n for n in more if n not in same))
+        return tuple(found.get(n, ()) for n in range(len(self.path.cameras)))
+
+    def _overlapping(self, view: int, others: dict[int, int]) -> list[int]:
+        """Those of another panorama's views that look less than `BESIDE_RAD` aside of one."""
+        ahead = [camera.cam_from_world[2, :3] for camera in self.path.cameras]
+        least = float(np.cos(BESIDE_RAD))
+        return [n for n in others.values() if float(ahead[n] @ ahead[view]) > least]
 
     def key(self, work: Work, number: int) -> KeyModel:
         """The mosaic of a panorama's views, whose rotations the cameras say."""
@@ -146,7 +164,7 @@ class PanoramaRecord:
     def _mosaic(self, number: int) -> Mosaic:
         name, views = self.panoramas[self.chosen[number]]
         order = sorted(views)
-        models = [self._model(name, side, views[side]) for side in order]
+        models = [self._model(name, views[side]) for side in order]
         front = self._fronts[self.chosen[number]]
         cameras = self.path.cameras
         turns = np.array([between(cameras[views[n]], cameras[front])[:, :3] for n in order])
@@ -156,9 +174,8 @@ class PanoramaRecord:
     def _left_out(self) -> str:
         return f"left out, for no other panorama has a view to that side: {', '.join(self.alone)}"
 
-    def _model(self, name: str, side: int, view: int) -> LocalModel:
-        numbers, planes = self._sides[side]
-        depth, sure = planes.depth(numbers.index(view))
+    def _model(self, name: str, view: int) -> LocalModel:
+        depth, sure = self._planes.depth(view)
         return model_of_depth(name, self.path.picture(view), depth, sure, self.rig)
 
     def picture(self, work: Work, number: int) -> Image:

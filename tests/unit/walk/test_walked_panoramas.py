@@ -16,6 +16,7 @@ from veduta.run.progress import Progress
 from veduta.synthetic.walks.gorge import make_gorge
 from veduta.synthetic.walks.record import GorgeWalk, cameras_of
 from veduta.synthetic.walks.shoot import GorgeScene, WalkCamera
+from veduta.walk.build.photo_depth import FramePlanes
 from veduta.walk.command import Sources, run_walk
 from veduta.walk.options import TakeOptions, WalkOptions
 from veduta.walk.panorama_record import PanoramaRecord
@@ -108,3 +109,28 @@ def test_the_front_looks_along_the_path(panoramas: Path) -> None:
     pose = record.pose(0, 2)
     assert pose is not None
     assert -pose[2, 3] == pytest.approx(1.6, rel=0.05)
+
+
+def test_at_an_end_views_beside_give_depth_to_the_rim(panoramas: Path) -> None:
+    """What is at the rim of the first view ahead is outside of the next one's."""
+    record = read_photo_record(panoramas / "photos", panoramas / "cameras", TakeOptions(), 500)
+    assert isinstance(record, PanoramaRecord)
+    assert [set(record.around[n]) for n in (0, SIDES, 2 * SIDES + 3)] == [
+        {8, 9, 15}, {0, 16}, {SIDES + 2, SIDES + 3, SIDES + 4},
+    ]  # fmt: skip
+    path = record.path
+    same = tuple((n + SIDES,) if n < SIDES else (n - SIDES,) for n in range(len(path.cameras)))
+    alone = FramePlanes(path.cameras, path.picture, path.span, around=same)
+    both = FramePlanes(path.cameras, path.picture, path.span, around=record.around, kept=24)
+    gorge = make_gorge(3.0)
+    first = cameras_of(GorgeWalk(keys=3, step_m=0.8), gorge)[0]
+    view = WalkCamera(SIDE_PX, SIDE_PX, float(FOCAL_PX), first.world_from_camera)
+    true = GorgeScene(gorge).shoot(view, samples=1).depth_m
+    rim = np.ones(true.shape, dtype=bool)
+    rim[SIDE_PX // 6 : -SIDE_PX // 6, SIDE_PX // 6 : -SIDE_PX // 6] = False
+    rim &= np.isfinite(true)
+    off = [
+        float(np.mean(np.abs(planes.depth(0)[0][rim] / true[rim] - 1.0) > 0.1))
+        for planes in (alone, both)
+    ]
+    assert off[1] < 0.8 * off[0]

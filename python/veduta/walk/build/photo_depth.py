@@ -51,18 +51,23 @@ class FramePlanes:
     """Planes of frames, made when they are asked for; those of a few frames are kept.
 
     cameras: without distortion, of one size. picture: of a frame. near, far: depths looked for, in
-    the cameras' unit, of a frame. reach: how many frames before and after one are compared.
+    the cameras' unit, of a frame. reach: how many frames before and after one are compared; or
+    around: the frames that each is compared with. kept: how many frames' planes are, at most.
     """
 
     cameras: list[Camera]
     picture: Callable[[int], Image]
     span: Callable[[int], tuple[float, float]]
     reach: int = 1
+    around: tuple[tuple[int, ...], ...] | None = None
+    kept: int = 4
     settings: PhotoDepthSettings = PhotoDepthSettings()
     _planes: dict[int, Planes] = field(default_factory=dict)
 
     def neighbours(self, number: int) -> list[int]:
         """The frames that are compared with one."""
+        if self.around is not None:
+            return list(self.around[number])
         around = range(number - self.reach, number + self.reach + 1)
         return [n for n in around if n != number and 0 <= n < len(self.cameras)]
 
@@ -77,7 +82,7 @@ class FramePlanes:
         )
         cost = self._of(number)[:, 3]
         sure = ((agree >= 1) & (cost < self.settings.most_cost)).reshape(shape)
-        for old in [one for one in self._planes if one < number - self.reach]:
+        for old in list(self._planes)[: -self.kept]:
             del self._planes[old]
         return depths[0], sure
 
@@ -90,12 +95,13 @@ class FramePlanes:
         settings = self.settings
         near, far = self.span(number)
         others = self.neighbours(number)
+        best = 1 if self.around is not None else max(1, (len(others) + 1) // 2)
         planes: Planes | None = None
         shape = (1, 1)
         for scale, sweeps, vary_depth, vary_normal in settings.coarse:
             pictures = [self._grey(one, scale) for one in (number, *others)]
             rule = _core.SearchRule(
-                near=near, far=far, sweeps=sweeps, views=max(1, (len(others) + 1) // 2),
+                near=near, far=far, sweeps=sweeps, views=best,
                 step_px=settings.step_px, gamma_grey=settings.gamma_grey,
                 gamma_px=settings.gamma_px, noise_grey=settings.noise_grey,
                 consistency=settings.consistency, most_px=settings.most_px,
