@@ -35,6 +35,8 @@ from veduta.run.threads import available_cores
 
 MOST_TRIED = 8
 """Pairs that meet the conditions from which growing is tried, before the engine chooses."""
+MOST_AHEAD = 6
+"""Pairs of a camera that moved ahead from which growing is tried, until one places all."""
 MANY = 100
 """Matches off a plane that make a small angle sure: pairs ahead with fewer come last."""
 RELAXED = ((100, 16.0), (50, 16.0), (50, 8.0), (25, 8.0), (25, 4.0))
@@ -90,7 +92,7 @@ def grow(growth: Growth, registered: Callable[[int], None]) -> Grown | None:
     registered: is told how many photos it has, after each.
     """
     begun = read_snapshot(growth.snapshots)
-    if begun is not None:
+    if begun is not None and not _is_ahead(begun):
         trial = _Trial(growth, registered, RELAXED[0])
         if (grown := trial.run(begun)) is not None:
             return grown
@@ -108,6 +110,15 @@ def grow(growth: Growth, registered: Callable[[int], None]) -> Grown | None:
             break
     grown = _grown_from_engines_choice(growth, registered, tried)
     return grown if grown is not None else _grown_ahead(growth, registered, weighed, tried)
+
+
+def _placed(grown: Grown) -> int:
+    return int(grown.model.num_reg_images())
+
+
+def _is_ahead(begun: Grown) -> bool:
+    """Whether it is one of several trials, of which the best is taken: they are made again."""
+    return begun.start is not None and begun.start.chosen_by == "ahead"
 
 
 def _told(start: Start, pair: tuple[int, int]) -> Start:
@@ -151,18 +162,23 @@ def _grown_ahead(
     """From photos that a camera took as it moved ahead, those first that are furthest apart.
 
     The engine begins with none: where one looks the way one goes it takes a pose for uncertain.
-    Small angles are what such a path has; points near its sides, over several photos, have more.
+    Small angles are what such a path has; points near its sides, over several photos, have more. A
+    focal length that is not known may lead a trial astray, so the one that places most is taken.
     """
+    best: Grown | None = None
     ahead = [pair for pair in weighed if pair.begins_ahead]
     ahead.sort(key=lambda one: (not one.known, one.telling < MANY, -(one.angle_deg or 0.0)))
-    for pair in ahead[:MOST_TRIED]:
+    for pair in ahead[:MOST_AHEAD]:
         start = Start(pair, "ahead", tried.passed_over, tried.refused)
         bounds = (FEWEST, LEAST_ANGLE_AHEAD_DEG)
         trial = _Trial(growth, registered, bounds, partial(_told, start), pair, ahead=True)
-        if (grown := trial.run()) is not None:
-            return grown
+        grown = trial.run()
+        if grown is not None and (best is None or _placed(grown) > _placed(best)):
+            best = grown
+        if best is not None and _placed(best) == len(growth.image_ids):
+            break
         tried.refused += 1
-    return None
+    return best
 
 
 class _Trial:
