@@ -31,6 +31,7 @@ from record import Row, keep_or_print
 from veduta.facade.evidence import gather
 from veduta.facade.eyes import (
     SeenElement,
+    believed,
     look,
     seen_elements,
 )
@@ -164,7 +165,7 @@ def _signs_of(name: str) -> dict[str, object]:
     pixels = read_image(DATA / "facades/cmp" / f"{name}.jpg").pixels
     evidence, seen = gather(pixels, inside_photo(pixels)), look(pixels)
     size = evidence.width, evidence.height
-    elements = in_crop(seen_elements(seen), evidence.px_per_rectified, 0, size)
+    elements = in_crop(believed(seen_elements(seen), seen), evidence.px_per_rectified, 0, size)
     windows = [e for e in elements if e.kind == "window"]
     if len(windows) < HouseParameters().windows:
         return {}

@@ -22,7 +22,7 @@ from kept_lines import kept_of
 from record import Row, keep_or_print
 
 from veduta.facade.evidence import gather
-from veduta.facade.eyes import look, seen_elements
+from veduta.facade.eyes import believed, look, seen_elements
 from veduta.facade.houses import HouseParameters, storey_of
 from veduta.facade.margins import MarginParameters, end_of, outermost
 from veduta.facade.party_signs import fronts_of
@@ -69,7 +69,7 @@ def margins_of(name: str) -> list[Margin]:
     pixels = read_image(DATA / "facades/cmp" / f"{name}.jpg").pixels
     evidence, seen = gather(pixels, inside_photo(pixels)), look(pixels)
     size = evidence.width, evidence.height
-    elements = in_crop(seen_elements(seen), evidence.px_per_rectified, 0, size)
+    elements = in_crop(believed(seen_elements(seen), seen), evidence.px_per_rectified, 0, size)
     windows = [e for e in elements if e.kind == "window" and e.score > p.seen]
     if len(windows) < HouseParameters().windows:
         return []

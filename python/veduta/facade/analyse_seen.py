@@ -5,16 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import numpy as np
-
 from veduta.facade.boxes import Box
 from veduta.facade.compose import Parse, compose
-from veduta.facade.document import FacadeDocument, RoofKind, Source
+from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import Evidence, Float, gather
-from veduta.facade.extent import Skyline, find_skyline, row_histograms
-from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
-from veduta.facade.floors import Floors, split_floors
-from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
+from veduta.facade.extent import Skyline, find_skyline
+from veduta.facade.eyes import Seen, SeenElement, believed, look, seen_elements
 from veduta.facade.glass import Glass, find_glass, glass_note, with_panes
 from veduta.facade.heads import with_heads
 from veduta.facade.hidden_windows import hidden_windows
@@ -24,9 +20,8 @@ from veduta.facade.margins import width_doubt, without_margins
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.rectify import Rectified
-from veduta.facade.rows import gather_rows
 from veduta.facade.scale import scale_notes
-from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop
+from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop, on_their_floors
 from veduta.facade.seen_front import (
     BEFORE,
     WALL,
@@ -35,38 +30,11 @@ from veduta.facade.seen_front import (
     require_front,
     sides_of,
 )
-from veduta.facade.seen_rows import (
-    RowParameters,
-    WindowRow,
-    agrees,
-    are_sure,
-    floors_of_rows,
-    is_even,
-    window_rows,
-    without_roof,
-)
+from veduta.facade.seen_storeys import storeys_of
 from veduta.facade.sides import Sides, crop, find_sides, whole
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
-
-# The chance of wall above the eaves from which on there is no roof but more of the wall. Of 26
-# pictures of three sets, those with a roof have 0.71 at most, those without 0.77 and more.
-_NO_ROOF = 0.75
-# Window heights in a storey, where no second row tells how high one is.
-_WINDOWS_IN_STOREY = 2.0
-_PLANE = "storeys: doubtful, so the front is a plane with openings and has no floors"
-_UNEVEN = "storeys: the rows of windows are not evenly apart"
-_ONE_ROW = "storeys: there is one row of windows at most"
-_UNSURE = "storeys: most windows are not sure"
-
-
-@dataclass(frozen=True)
-class _Storeys:
-    floors: Floors
-    doubts: list[str]
-    gable: Gable | None = None
-    roof: RoofKind = "mansard"
 
 
 @dataclass(frozen=True)
@@ -233,15 +201,17 @@ def _look_at(
     with timed_step(steps, "eyes") as step:
         progress("eyes", 0.0)
         seen = seen or look(rectified.pixels)
-        elements = seen_elements(seen)
+        elements = believed(found := seen_elements(seen), seen)
+        step.counts["not believed"] = len(found) - len(elements)
         for kind in seen.kinds:
             step.counts[kind] = sum(e.kind == kind for e in elements)
-        require_front(seen, elements, front)
+        require_front(seen, found, elements, front)
     with timed_step(steps, "extent") as step:
         progress("extent", 0.3)
         evidence = gather(rectified.pixels, rectified.valid)
         require_building(evidence)
-        sky = find_skyline(evidence)
+        size = evidence.width, evidence.height
+        sky = find_skyline(evidence, seen.chance_at(size, "sky"))
         named = rectified.record.method == "corners"
         sides = whole(evidence) if named else _sides(evidence, sky, seen, elements, front)
         glass = find_glass(evidence, seen)
@@ -270,10 +240,10 @@ def _read(
         if not elements:
             raise NotFoundError("a facade", "no window or door lies between its sides", REMEDY)
         wall = front.wall[: inner.height, sides.left : sides.right]
-        storeys = _under_gable(skyline, elements, wall, inner.height)
-        storeys = storeys or _storeys(inner, skyline, elements, wall, options)
+        storeys = storeys_of(inner, skyline, elements, wall, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
     with timed_step(steps, "openings") as step:
+        elements = on_their_floors(elements, storeys.floors.boundaries)
         columns = columns_of(elements)
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)
         panes = [box for box in boxes if front.is_pane(box, sides.left)]
@@ -319,74 +289,3 @@ def _sides(
     moved = in_crop(elements, evidence.px_per_rectified, 0, size)
     sides = sides_of(plain, evidence, seen, moved, parameters)
     return without_margins(sides, evidence, seen, moved)
-
-
-def _storeys(
-    evidence: Evidence,
-    skyline: Skyline,
-    elements: list[SeenElement],
-    wall: Float,
-    options: FacadeOptions,
-) -> _Storeys:
-    """Floors by what is alike, where the rows of windows agree; else by these; else none.
-
-    `wall` (h, w) is the chance of wall: what lies above the eaves and is wall is no roof.
-    """
-    parameters = RowParameters()
-    windows = [e for e in elements if e.kind == "window"]
-    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in windows]).reshape(-1, 4)
-    rows = window_rows(boxes, parameters)
-    plain = _plain_floors(evidence, skyline, options)
-    top, bottom = float(skyline.level), evidence.height
-    eaves = float(plain.eaves) if plain is not None else None
-    if plain is not None and float(wall[skyline.level : plain.eaves].mean()) > _NO_ROOF:
-        eaves = top
-        plain = without_roof(plain, skyline.level, rows)
-    if not are_sure(windows, parameters):
-        return _Storeys(_plane(rows, skyline, elements), [_PLANE, _UNSURE])
-    if plain is not None and agrees(plain, rows):
-        return _Storeys(plain, [])
-    floors = floors_of_rows(rows, eaves, top, bottom, parameters)
-    if floors is not None and is_even(rows, eaves, parameters):
-        return _Storeys(floors, [])
-    reason = _UNEVEN if len(rows) > 1 else _ONE_ROW
-    return _Storeys(_plane(rows, skyline, elements), [_PLANE, reason])
-
-
-def _under_gable(
-    skyline: Skyline, elements: list[SeenElement], wall: Float, height: int
-) -> _Storeys | None:
-    """Floors below the eaves of a gable or a hipped roof; None where the outline shows none.
-
-    wall: (h, w) the chance of wall.
-    """
-    gable = find_gable(skyline)
-    parameters = RowParameters()
-    windows = [e for e in elements if e.kind == "window"]
-    if gable is None or not are_sure(windows, parameters):
-        return None
-    eaves = round(gable.eaves)
-    below = [e for e in windows if 0.5 * (e.y0 + e.y1) > eaves]
-    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in below]).reshape(-1, 4)
-    rows = window_rows(boxes, parameters)
-    floors = floors_of_rows(rows, eaves, eaves, height, parameters)
-    kind: RoofKind = "gable" if is_wall(gable, wall, skyline, GableParameters().wall) else "hip"
-    if floors is None or not is_even(rows, eaves, parameters):
-        return None
-    return _Storeys(replace(floors, boundaries=[eaves, *floors.boundaries[1:]]), [], gable, kind)
-
-
-def _plain_floors(evidence: Evidence, skyline: Skyline, options: FacadeOptions) -> Floors | None:
-    lines = gather_rows(evidence, skyline, row_histograms(evidence, skyline))
-    try:
-        return split_floors(lines, options.scale.height_m)
-    except NotFoundError:
-        return None
-
-
-def _plane(rows: list[WindowRow], skyline: Skyline, elements: list[SeenElement]) -> Floors:
-    """A front without floors; the scale takes a storey from the height of its openings."""
-    heights = [e.height for e in elements if e.kind == "window"] or [e.height for e in elements]
-    storey = _WINDOWS_IN_STOREY * float(np.median(heights))
-    top = min(float(skyline.level), min((row.top for row in rows), default=np.inf))
-    return Floors([max(0, round(top))], storey, 0.0, {}, 0)

@@ -23,6 +23,10 @@ _RAGGED = 4.2
 # Gradient (lightness steps per pixel, doubled) below which a pixel is plain.
 _PLAIN = 6.0
 _CLUSTERS = 4
+# How much the log-odds of the learned eyes count beside the colours, and the least chance for that;
+# the share of the upper edge that they must see as sky where its colours are not.
+_SEEN_WEIGHT, _SEEN_LEAST = 2.0, 0.02
+_SKY_SEEN = 0.2
 # Cost per row of a step of the skyline, and of a jump of any height (chimneys).
 _SLOPE = 0.5
 _JUMP = 12.0
@@ -44,8 +48,11 @@ class Skyline:
     reason: str = ""
 
 
-def find_skyline(evidence: Evidence) -> Skyline:
+def find_skyline(evidence: Evidence, seen: Float | None = None) -> Skyline:
     """Part sky from building with one row per column, smooth from column to column.
+
+    seen: (h, w) the chance of sky by the learned eyes, where they are: its log-odds count beside
+    the colours, and alone where the upper edge has no colours of a sky.
 
     The sky's colours are those of the smooth pixels at the upper edge. Each pixel pays for being
     unlike them or for being textured; the chain over columns is solved exactly. (Taking new seeds
@@ -54,19 +61,34 @@ def find_skyline(evidence: Evidence) -> Skyline:
     """
     upper_edge = evidence.valid.argmax(0)
     none = upper_edge, ridge_row(upper_edge, evidence.valid)
-    seeds = _sky_seeds(evidence)
+    seeds, reason = _sky_seeds(evidence), ""
     if seeds is None:
-        return Skyline(*none, "the upper edge is textured")
-    third = np.s_[evidence.height // 3 : 2 * evidence.height // 3]
-    body = evidence.lab[third][evidence.valid[third]]
-    brighter = not len(body) or np.median(seeds[:, 0]) >= np.median(body[:, 0]) + 10
-    blue = np.median(seeds[:, 2]) <= 122
-    if not (brighter or blue):
-        return Skyline(*none, "the upper edge is neither brighter than the facade nor blue")
-    rows = np.asarray(_core.skyline_chain(_sky_cost(evidence, seeds), _SLOPE, _JUMP), np.int64)
+        reason = "the upper edge is textured"
+    elif not _is_skys(evidence, seeds):
+        seeds, reason = None, "the upper edge is neither brighter than the facade nor blue"
+    if reason and (seen is None or not _shows_sky(evidence, seen)):
+        return Skyline(*none, reason)
+    rows = np.asarray(
+        _core.skyline_chain(_sky_cost(evidence, seeds, seen), _SLOPE, _JUMP), np.int64
+    )
     if np.abs(np.diff(rows)).sum() > _RAGGED * evidence.height:
         return Skyline(*none, "what could be sky reaches down between windows")
     return Skyline(rows, ridge_row(rows, evidence.valid))
+
+
+def _is_skys(evidence: Evidence, seeds: Float) -> bool:
+    """Whether colours (n, 3) are brighter than the middle of the picture, or blue."""
+    third = np.s_[evidence.height // 3 : 2 * evidence.height // 3]
+    body = evidence.lab[third][evidence.valid[third]]
+    brighter = not len(body) or np.median(seeds[:, 0]) >= np.median(body[:, 0]) + 10
+    return bool(brighter or np.median(seeds[:, 2]) <= 122)
+
+
+def _shows_sky(evidence: Evidence, seen: Float) -> bool:
+    """Whether the eyes see sky along a part of the upper edge of the photo."""
+    depth = np.cumsum(evidence.valid, axis=0)
+    edge = evidence.valid & (depth > 1) & (depth <= max(3, round(evidence.height * 0.02)))
+    return bool(edge.any()) and float((seen[edge] > 0.5).mean()) >= _SKY_SEEN
 
 
 def ridge_row(rows: NDArray[np.int64], valid: NDArray[np.bool_]) -> int:
@@ -108,21 +130,27 @@ def _sky_seeds(evidence: Evidence) -> Float | None:
     return np.asarray(cv2.GaussianBlur(evidence.lab, (0, 0), 1.0)[plain], np.float32)
 
 
-def _sky_cost(evidence: Evidence, seeds: Float) -> Float:
+def _sky_cost(evidence: Evidence, seeds: Float | None, seen: Float | None) -> Float:
     """Cost (rows + 1, w) of a skyline at each row: the building-likeness of all pixels above.
 
     Where the picture below its middle has the sky's colours (a grey or a white wall under clouds),
     pixels must be as much like the sky as few of the wall's are.
     """
-    unlike = _unlike_sky(evidence, seeds)
-    middle = np.s_[evidence.height // 2 : len(unlike)]
-    body = unlike[middle][evidence.valid[middle]]
-    even = min(_EVEN, float(np.quantile(body, _SKY_IN_WALL))) if len(body) else _EVEN
-    unlike = unlike[: round(evidence.height * _SEARCHED)] - even
+    rows = round(evidence.height * _SEARCHED)
+    likeness = np.zeros((rows, evidence.width), np.float32)
+    if seeds is not None:
+        unlike = _unlike_sky(evidence, seeds)
+        middle = np.s_[evidence.height // 2 : len(unlike)]
+        body = unlike[middle][evidence.valid[middle]]
+        even = min(_EVEN, float(np.quantile(body, _SKY_IN_WALL))) if len(body) else _EVEN
+        likeness = unlike[:rows] - even
+    if seen is not None:
+        chance = np.clip(seen[:rows], _SEEN_LEAST, 1.0 - _SEEN_LEAST)
+        likeness = likeness + _SEEN_WEIGHT * np.log((1.0 - chance) / chance)
     # Nothing is known where there is no photo: it goes with the sky.
-    unlike[~evidence.valid[: len(unlike)]] = -_EVEN
-    cost = np.zeros((len(unlike) + 1, evidence.width), np.float32)
-    np.cumsum(unlike, axis=0, out=cost[1:])
+    likeness[~evidence.valid[:rows]] = -_EVEN
+    cost = np.zeros((rows + 1, evidence.width), np.float32)
+    np.cumsum(likeness, axis=0, out=cost[1:])
     return cost
 
 

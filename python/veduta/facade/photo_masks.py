@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.document import Element, FacadeDocument
+from veduta.imaging.padding import inside_photo
 
 Mask = NDArray[np.bool_]
 # Pixels this close to the source photo's border are mixed with what is beyond it (px).
@@ -64,11 +65,14 @@ def pixels_of(element: Element, box: PixelBox, spread_px: float = 0.0) -> tuple[
     return slice(y0, y1), slice(x0, x1)
 
 
-def seen_mask(document: FacadeDocument, box: PixelBox) -> Mask:
-    """Where the source photo shows something: rectifying leaves corners that it does not."""
+def seen_mask(document: FacadeDocument, box: PixelBox, photo: NDArray[np.uint8]) -> Mask:
+    """Where the source photo shows something: rectifying leaves corners that it does not.
+
+    photo: (h, w, 3) uint8 sRGB, the rectified photo; one that came so has the corners in it.
+    """
     rectification, source = document.rectification, document.source
     if rectification.method == "rectified":
-        return np.ones((box.size[1], box.size[0]), dtype=np.bool_)
+        return inside_photo(photo)[box.y0 : box.y1, box.x0 : box.x1]
     source_from_rectified = np.linalg.inv(np.array(rectification.rectified_from_source))
     x_px, y_px = np.meshgrid(np.arange(box.x0, box.x1) + 0.5, np.arange(box.y0, box.y1) + 0.5)
     a, b, w = np.einsum(

@@ -39,6 +39,29 @@ def in_crop(
     return found
 
 
+def on_their_floors(
+    elements: Sequence[SeenElement], boundaries: Sequence[int]
+) -> list[SeenElement]:
+    """The elements, of which shops and doors are on the ground floor alone.
+
+    A shop above it is an awning or a sign, and left out; a door above it is a window down to the
+    floor. A front without floors (one boundary) keeps both wherever they are.
+    """
+    if len(boundaries) < 2:
+        return list(elements)
+    ground = boundaries[-1]
+
+    def is_above(e: SeenElement) -> bool:
+        return (
+            e.kind in ("shop", "door")
+            and 0.5 * (e.y0 + e.y1) < ground
+            and e.y1 < ground + (0.25 * e.height)
+        )
+
+    kept = [e for e in elements if not (e.kind == "shop" and is_above(e))]
+    return [replace(e, kind="window") if is_above(e) else e for e in kept]
+
+
 def boxes_of(
     elements: Sequence[SeenElement], boundaries: Sequence[int], columns: Columns
 ) -> list[Box]:

@@ -127,13 +127,13 @@ def make_textures(
     )
     box = _in_photo(whole, photo)
     crop = photo[box.y0 : box.y1, box.x0 : box.x1].copy()
-    unseen = ~seen_mask(document, box)
+    unseen = ~seen_mask(document, box, photo)
     hidden = np.zeros(crop.shape[:2], dtype=np.uint8)
     if before is not None:
         hidden = before[box.y0 : box.y1, box.x0 : box.x1]
     colours = _colours(document, crop, box, ~unseen & (hidden == 0))
     _fill_unseen(document, crop, box, unseen, colours)
-    cleared, invented = _surface_layer(document, crop, box, colours, hidden)
+    cleared, invented = _surface_layer(document, crop, box, colours, hidden, unseen)
     return FacadeTextures(
         front=_fitted(crop, unseen, box, whole),
         wall=_fitted(cleared.pixels, invented | unseen, box, whole),
@@ -216,6 +216,7 @@ def _surface_layer(
     box: PixelBox,
     colours: Colours,
     before: NDArray[np.uint8],
+    unseen: Mask,
 ) -> tuple[Cleared, Mask]:
     """The photo without what stands before wall and roof, and the mask of invented pixels."""
     sky = extent_mask(document, box, "sky")
@@ -227,7 +228,7 @@ def _surface_layer(
     below = rows[:, 0] >= document.facade.y_px
     if invented[below].any():
         surface[below] = without_sky(crop, invented, colours.wall)[below]
-    cleared = clear_surface(document, surface, box, before)
+    cleared = clear_surface(document, surface, box, before, unseen)
     return cleared, invented | cleared.filled
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -103,7 +104,7 @@ def tilted(document: FacadeDocument) -> FacadeDocument:
 def test_what_the_source_does_not_show_is_found_pixel_by_pixel() -> None:
     document = tilted(sample_document())
     box = PixelBox(0, 0, PHOTO_PX[0], PHOTO_PX[1])
-    mask = seen_mask(document, box)
+    mask = seen_mask(document, box, sample_photo(document))
     back = np.linalg.inv(np.array(document.rectification.rectified_from_source))
     rng = np.random.default_rng(5)
     for column, row in rng.integers((0, 0), PHOTO_PX, (400, 2)):
@@ -119,9 +120,22 @@ def test_what_the_source_does_not_show_is_found_pixel_by_pixel() -> None:
 def test_what_the_source_does_not_show_is_painted_and_marked() -> None:
     document = tilted(sample_document(elements=[]))
     photo = sample_photo(document)
-    photo[~seen_mask(document, PixelBox(0, 0, *PHOTO_PX))] = 0
+    photo[~seen_mask(document, PixelBox(0, 0, *PHOTO_PX), photo)] = 0
     textures = make_textures(document, photo, FACADE_M[1])
     for texture in (textures.front, textures.wall):
         assert texture.pixels.max(axis=2).min() > 60
         assert texture.invented.any()
     assert textures.colours.wall[0] == pytest.approx(214 / 255, abs=0.02)
+
+
+def test_a_corner_that_an_earlier_rectification_left_is_filled_and_marked() -> None:
+    document = sample_document(elements=[])
+    photo = sample_photo(document)
+    width, height = PHOTO_PX
+    corner = np.array([[0, height], [0, height // 2], [width // 4, height]], np.int32)
+    cv2.fillConvexPoly(photo, corner, (0, 0, 0))
+    textures = make_textures(document, photo, FACADE_M[1])
+    for texture in (textures.front, textures.wall):
+        assert texture.pixels.max(axis=2).min() > 60
+        _, invented = look_up(textures, texture, 0.2, 1.0)
+        assert invented

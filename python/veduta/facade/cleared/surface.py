@@ -44,11 +44,16 @@ class Cleared:
 
 
 def clear_surface(
-    document: FacadeDocument, crop: Pixels, box: PixelBox, before: NDArray[np.uint8]
+    document: FacadeDocument,
+    crop: Pixels,
+    box: PixelBox,
+    before: NDArray[np.uint8],
+    unseen: Mask | None = None,
 ) -> Cleared:
     """Take balconies and what `before` has out of a crop of the photo, and even its light.
 
     crop: (h, w, 3), the part `box` of the photo. before: (h, w) of the crop, places in `KINDS`.
+    unseen: (h, w) what lies outside of the photo, and is filled with the rest.
     """
     _, storey = _repeats(document, box)
     kinds = _with_balconies(document, box, before, storey)
@@ -66,6 +71,8 @@ def clear_surface(
         for place, name in enumerate(KINDS)
         if place and (kinds == place).any()
     }
+    if unseen is not None and (holes | unseen).mean() <= MOST_HIDDEN:
+        holes = holes | unseen
     pixels, copied = crop, 0.0
     notes: tuple[str, ...] = ()
     if holes.any() and holes.mean() <= MOST_HIDDEN:

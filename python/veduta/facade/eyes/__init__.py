@@ -1,6 +1,16 @@
 """The learned eyes: a network that gives each pixel of a front a class, and each element a box."""
 
-from veduta.facade.eyes.elements import ElementParameters, SeenElement, seen_elements
+from veduta.facade.eyes.believed import BeliefParameters, believed
+from veduta.facade.eyes.element import SeenElement
+from veduta.facade.eyes.elements import ElementParameters, seen_elements
 from veduta.facade.eyes.look import Seen, look
 
-__all__ = ["ElementParameters", "Seen", "SeenElement", "look", "seen_elements"]
+__all__ = [
+    "BeliefParameters",
+    "ElementParameters",
+    "Seen",
+    "SeenElement",
+    "believed",
+    "look",
+    "seen_elements",
+]

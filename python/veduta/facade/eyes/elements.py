@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.facade.eyes.element import SeenElement
 from veduta.facade.eyes.look import BOX_STEP_PX, Seen
 from veduta.facade.eyes.shops import ShopParameters, shop_fronts
 
@@ -35,28 +36,6 @@ class ElementParameters:
     same: float = 0.35
     inside: float = 0.7
     other: float = 0.5
-
-
-@dataclass(frozen=True)
-class SeenElement:
-    """An upright box in pixels of the picture that was looked at, and how sure it is (0..1)."""
-
-    kind: str
-    x0: float
-    y0: float
-    x1: float
-    y1: float
-    score: float
-
-    @property
-    def width(self) -> float:
-        """Pixels."""
-        return self.x1 - self.x0
-
-    @property
-    def height(self) -> float:
-        """Pixels."""
-        return self.y1 - self.y0
 
 
 def seen_elements(seen: Seen, parameters: ElementParameters | None = None) -> list[SeenElement]:

@@ -1,0 +1,81 @@
+"""What shops and doors become by the floor they are on, and gables that windows stand beside."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from veduta.facade.evidence import gather
+from veduta.facade.extent import Skyline, find_skyline
+from veduta.facade.eyes import Seen, SeenElement
+from veduta.facade.options import FacadeOptions
+from veduta.facade.seen_boxes import on_their_floors
+from veduta.facade.seen_front import FrontParameters, require_front
+from veduta.facade.seen_storeys import storeys_of
+from veduta.run.errors import NotFoundError
+
+FLOORS = [20, 60, 100]
+
+
+def element(kind: str, x: float, y: float, high: float = 20.0, score: float = 0.9) -> SeenElement:
+    return SeenElement(kind, x, y, x + 10.0, y + high, score)
+
+
+def test_a_shop_above_the_ground_floor_is_left_out_and_a_door_there_is_a_window() -> None:
+    awning, french = element("shop", 0.0, 40.0), element("door", 20.0, 65.0, 30.0)
+    shop, door = element("shop", 40.0, 110.0), element("door", 60.0, 95.0, 40.0)
+    kept = on_their_floors([awning, french, shop, door], FLOORS)
+    assert [(e.kind, e.x0) for e in kept] == [("window", 20.0), ("shop", 40.0), ("door", 60.0)]
+
+
+def test_a_front_without_floors_keeps_both_wherever_they_are() -> None:
+    some = [element("shop", 0.0, 40.0), element("door", 20.0, 50.0)]
+    assert on_their_floors(some, [20]) == some
+
+
+def test_marks_of_which_few_are_sure_are_no_front() -> None:
+    classes = np.ones((1, 8, 8), np.float32)
+    names = ("window", "wall", "balcony", "door", "shop", "cornice", "sill", "ornament", "pillar")
+    every = np.concatenate([classes, np.zeros((9, 8, 8), np.float32)])
+    none = np.zeros((4, 4, 4), np.float32)
+    seen = Seen((*names, "blind"), ("window",), every, none, none, 1.0, 1.0, 32, 32)
+    sure = [element("window", 10.0 * k, 10.0) for k in range(3)]
+    marks = [element("window", 10.0 * k, 60.0, score=0.4) for k in range(7)]
+    require_front(seen, [*sure, *marks], sure, FrontParameters())
+    with pytest.raises(NotFoundError, match="of 11 marks of windows and doors 3 are sure"):
+        require_front(seen, [*sure, *marks, marks[0]], sure, FrontParameters())
+
+
+def gabled(*, beside: bool) -> tuple[Skyline, list[SeenElement]]:
+    """A gable 200 px wide over eaves at row 120; `beside` puts windows where its sky is."""
+    across = np.abs(np.arange(200) + 0.5 - 100.0) / 100.0
+    rows = np.round(20.0 + 100.0 * across).astype(np.int64)
+    windows = [
+        SeenElement("window", x, y, x + 20.0, y + 30.0, 0.9)
+        for y in (140.0, 200.0, 260.0)
+        for x in (30.0, 90.0, 150.0)
+    ]
+    own = [SeenElement("window", 90.0, 70.0, 110.0, 100.0, 0.9)]
+    corners = [SeenElement("window", x, 40.0, x + 20.0, 70.0, 0.9) for x in (5.0, 175.0)]
+    return Skyline(rows, 20), [*windows, *own, *(corners if beside else [])]
+
+
+@pytest.mark.parametrize("beside", [False, True])
+def test_no_gable_has_windows_beside_its_slopes(beside: bool) -> None:
+    skyline, elements = gabled(beside=beside)
+    evidence = gather(np.full((320, 200, 3), 180, np.uint8), np.ones((320, 200), np.bool_))
+    wall = np.ones((evidence.height, evidence.width), np.float32)
+    assert (evidence.height, evidence.width) == (320, 200)
+    found = storeys_of(evidence, skyline, elements, wall, FacadeOptions())
+    assert (found.gable is None) == beside
+
+
+def test_the_eyes_tell_a_white_wall_from_a_white_sky() -> None:
+    pixels = np.full((300, 200, 3), 245, np.uint8)
+    pixels[150:] = 120
+    evidence = gather(pixels, np.ones((300, 200), np.bool_))
+    sky = np.zeros((evidence.height, evidence.width), np.float32)
+    sky[: round(0.2 * evidence.height)] = 1.0
+    alone, both = find_skyline(evidence), find_skyline(evidence, sky)
+    assert alone.level > 0.45 * evidence.height
+    assert both.level == pytest.approx(0.2 * evidence.height, abs=3)
