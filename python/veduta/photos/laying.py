@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.photos.cameras.component import Component
+from veduta.photos.cameras.vertical_edges import SegmentsOf
 from veduta.photos.city.facades import facades_of
 from veduta.photos.city.lifted import lifted
 from veduta.photos.decoded import DecodedPhotos
@@ -16,7 +17,8 @@ from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.options import PhotosOptions
 from veduta.photos.structure import Structure, without_parallel
 from veduta.photos.walls.find_walls import find_walls
-from veduta.photos.walls.step import photo_reader, set_upright
+from veduta.photos.walls.level_edges import turned_to_edges
+from veduta.photos.walls.step import segments_by_photo, set_upright
 from veduta.photos.walls.wall import Wall
 from veduta.photos.world.gauss_newton import UP_SD_RAD
 from veduta.photos.world.georeference import Georeference, Similarity
@@ -58,11 +60,12 @@ def lay_components(
     """Walls of the first component, and of all where a city model is given; then the world."""
     with timed_step(steps, "walls") as step:
         upright, walls = [], []
+        edges = segments_by_photo(DecodedPhotos(photos))
         for number, component in enumerate(components):
             progress("walls", number / len(components))
-            upright.append(_upright(component, photos))
+            upright.append(_upright(component, photos, edges))
             wanted = number == 0 or references.model is not None
-            walls.append(_walls(upright[-1].structure, options) if wanted else ())
+            walls.append(_walls(upright[-1].structure, options, edges) if wanted else ())
         step.counts["walls"] = sum(map(len, walls))
     with timed_step(steps, "georeference") as step:
         laid = [
@@ -79,19 +82,25 @@ def lay_components(
     return laid
 
 
-def _upright(component: Component, photos: Sequence[PhotoRecord]) -> Component:
+def _upright(
+    component: Component,
+    photos: Sequence[PhotoRecord],
+    edges: Callable[[Structure], SegmentsOf],
+) -> Component:
     component = replace(component, structure=without_parallel(component.structure))
     component = which_way_up(component, photos)
     if looks_down(component.structure):
         return component
-    read_photo = DecodedPhotos(photos)
-    return set_upright(component, lambda structure: photo_reader(structure, read_photo))
+    return set_upright(component, edges)
 
 
-def _walls(structure: Structure, options: PhotosOptions) -> tuple[Wall, ...]:
+def _walls(
+    structure: Structure, options: PhotosOptions, edges: Callable[[Structure], SegmentsOf]
+) -> tuple[Wall, ...]:
     if options.walls.no_walls:
         return ()
-    return find_walls(structure, options.walls, options.random.seed)
+    found = find_walls(structure, options.walls, options.random.seed)
+    return turned_to_edges(found, structure, edges(structure))
 
 
 def _laid(

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from veduta.imaging.encode import png_bytes
+from veduta.imaging.segments import Segments, detect_segments
 from veduta.photos.cameras.component import Component
 from veduta.photos.cameras.upright import upright
-from veduta.photos.cameras.vertical_edges import edge_normals
+from veduta.photos.cameras.vertical_edges import SegmentsOf, edge_normals
 from veduta.photos.options import WallOptions
 from veduta.photos.structure import Structure
 from veduta.photos.walls.document import Unit, picture_file, walls_document
@@ -32,16 +33,28 @@ class FoundWalls:
     pictures: tuple[WallPicture, ...]
 
 
+def segments_by_photo(read_photo: ReadPhoto) -> Callable[[Structure], SegmentsOf]:
+    """The edges of each photo, looked for once; `read_photo` by image id."""
+    known: dict[int, Segments] = {}
+
+    def of(image: int) -> Segments:
+        if image not in known:
+            known[image] = detect_segments(read_photo(image))
+        return known[image]
+
+    return lambda structure: lambda row: of(structure.image_ids[row])
+
+
 def photo_reader(structure: Structure, read_photo: ReadPhoto) -> ReadPhoto:
     """Reads a photo by its row in the structure; `read_photo` by image id."""
     return lambda row: read_photo(structure.image_ids[row])
 
 
-def set_upright(component: Component, read: Callable[[Structure], ReadPhoto]) -> Component:
+def set_upright(component: Component, edges: Callable[[Structure], SegmentsOf]) -> Component:
     """The component turned so that its walls and vertical edges stand upright."""
     structure = component.structure
     z = np.array([0.0, 0.0, 1.0])
-    turned, found = upright(structure, edge_normals(structure, z, read(structure)))
+    turned, found = upright(structure, edge_normals(structure, z, edges(structure)))
     return replace(component, structure=turned, upright=found)
 
 
