@@ -116,6 +116,43 @@ Mine --> print(\"rule\")";
     assert_eq!(found, ["mine 7", "rule", "own 7"]);
 }
 
+const MASSES: &str = "Lot --> print(\"mass\") Front Side(3) Stays.
+Front --> print(\"plain front\")";
+
+#[test]
+fn an_importing_file_defines_rules_of_what_it_imports() {
+    let main = "import a : \"m.cga\"
+import b : \"m.cga\"
+const word = \"mine \"
+a.Front --> print(word + 1)
+a.Side(x) --> print(word + x) b.Front
+a.Stays --> print(\"never\")
+Lot --> a.Lot b.Lot a.Front";
+    let found = said(main, &[("m.cga", MASSES)]);
+    let of_a = ["mass", "mine 1", "mine 3", "plain front"];
+    assert_eq!(found[..4], of_a);
+    assert_eq!(found[4..], ["mass", "plain front", "mine 1"]);
+    let program = program(main, &[("m.cga", MASSES)]);
+    assert_eq!(check(&program).render(&program), "");
+}
+
+#[test]
+fn the_farthest_importing_file_has_the_last_word_on_a_rule() {
+    let middle = "import m : \"m.cga\"\nm.Front --> print(\"middle\")\nLot --> m.Lot";
+    let others = [("middle.cga", middle), ("m.cga", MASSES)];
+    let main = |own: &str| format!("import n : \"middle.cga\"\n{own}\nLot --> n.Lot");
+    assert_eq!(said(&main(""), &others)[1], "middle");
+    let outer = "n.m.Front --> print(\"outer\")";
+    assert_eq!(said(&main(outer), &others)[1], "outer");
+}
+
+#[test]
+fn a_rule_of_an_import_that_is_not_there_is_a_fault() {
+    let program = program("Lot --> A.\nlib.Top --> B.", &[]);
+    let told = check(&program).render(&program);
+    assert!(told.contains("nothing is imported as `lib`"), "{told}");
+}
+
 const STYLED: &str = "attr tall = 1
 Lot --> print(tall) Roof
 Roof --> print(\"plain\")

@@ -62,13 +62,16 @@ impl Checker<'_> {
         }
     }
 
-    /// A name without a rule is a leaf, and worth a warning; with a block, or in lower case as
-    /// operations are, it is an error.
+    /// A name without a rule is a leaf, and worth a warning. With a block, or with arguments and
+    /// in lower case as operations are, it is an error.
     fn report_no_rule(&mut self, call: &Call) {
         let name = &call.name;
         let place = self.place(name);
         if matches!(place, Place::Missing) || self.diagnostics.is_full() {
             return;
+        }
+        if call.block.is_none() && self.is_grafted(name, call.args().len()) {
+            return self.resolve(name, Target::Leaf);
         }
         let text = self.text(name);
         if let Place::In {
@@ -85,7 +88,8 @@ impl Checker<'_> {
             }
         }
         let hint = self.suggest_rule(name);
-        let is_operation = text.starts_with(|first: char| first.is_ascii_lowercase());
+        let is_operation = text.starts_with(|first: char| first.is_ascii_lowercase())
+            && (text.contains('.') || !call.args().is_empty());
         if call.block.is_some() || is_operation {
             let message = format!("there is no operation or rule `{text}`");
             let fault = Diagnostic::error(name.span, message);
@@ -99,6 +103,17 @@ impl Checker<'_> {
         let hint = hint.unwrap_or_else(|| format!("write `{text}.` if that is meant"));
         self.diagnostics
             .add(Diagnostic::warning(name.span, message).with_hint(hint));
+    }
+
+    /// Whether a file of the program defines a rule of this name for one that it imports.
+    fn is_grafted(&self, name: &Ident, count: usize) -> bool {
+        let last = |text: &'_ str| text.rsplit('.').next().map(str::to_string);
+        let wanted = last(self.text(name));
+        let mut rules = self.definitions.iter().flat_map(|one| &one.rules);
+        rules.any(|rule| {
+            let text = self.text(&rule.name);
+            rule.arity == count && text.contains('.') && last(text) == wanted
+        })
     }
 
     fn operation(&mut self, call: &Call, index: usize, operation: &Operation) {

@@ -170,9 +170,12 @@ impl Definitions {
         used: &HashSet<(usize, usize)>,
         faults: &mut Diagnostics,
     ) {
-        for (index, rule) in self.rules.iter().enumerate().skip(1) {
+        // Those with a dot stand for rules of imports.
+        let is_own = |rule: &Definition| !names.text(rule.name.symbol).contains('.');
+        let own = self.rules.iter().enumerate();
+        for (index, rule) in own.filter(|(_, rule)| is_own(rule)).skip(1) {
+            let text = names.text(rule.name.symbol);
             if rule.role == Role::Rule && !used.contains(&(0, index)) {
-                let text = names.text(rule.name.symbol);
                 let message = format!("nothing calls the rule `{text}`");
                 faults.add(Diagnostic::warning(rule.name.span, message));
             }

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::call::takes;
 use super::definitions::Role;
+use super::lookup::Place;
 use super::{Checker, Target};
 use crate::ast::{Annotation, Ident, Import, Item, ItemKind, Local, Override, Rule, RuleKeyword};
 use crate::builtins::annotations::ANNOTATIONS;
@@ -45,6 +46,7 @@ impl<'a> Checker<'a> {
                     self.diagnostics.error(rule.name.span, message);
                 }
                 self.hidden_by_operation(rule);
+                self.grafted_import(rule);
                 self.params(&rule.params);
                 self.locals(&rule.locals);
                 self.body(&rule.body);
@@ -59,6 +61,16 @@ impl<'a> Checker<'a> {
             let message = format!("calls of `{name}` mean the operation, not this rule");
             self.diagnostics
                 .add(Diagnostic::warning(rule.name.span, message));
+        }
+    }
+
+    /// A rule `lib.Facade` is one of a file that is imported as `lib`.
+    fn grafted_import(&mut self, rule: &Rule) {
+        if matches!(self.place(&rule.name), Place::NoImport) {
+            let text = self.text(&rule.name);
+            let import = text.split('.').next().unwrap_or(text);
+            let message = format!("nothing is imported as `{import}`");
+            self.diagnostics.error(rule.name.span, message);
         }
     }
 

@@ -37,6 +37,31 @@ impl Instance {
         Some(at)
     }
 
+    /// The rule that an importing file defines for a rule of the instance `at`, as `lib.Facade`:
+    /// the number of that instance and of its rule. The farthest above has the last word.
+    pub fn graft(
+        all: &[Self],
+        at: usize,
+        name: &str,
+        arity: usize,
+        program: &Program,
+        checked: &Checked,
+    ) -> Option<(usize, usize)> {
+        let own = &all[at].prefix;
+        let mut found = None;
+        let mut above = at;
+        while let Some((parent, _)) = all[above].from {
+            above = parent;
+            let dotted = format!("{}{name}", own.strip_prefix(&all[above].prefix)?);
+            let rule = program.names.find(&dotted).and_then(|symbol| {
+                let defined = &checked.definitions[all[above].unit];
+                defined.rule(symbol, arity)
+            });
+            found = rule.map(|rule| (above, rule)).or(found);
+        }
+        found
+    }
+
     /// The variant of a definition that the style takes. One that is in other styles only is
     /// that of the first of them.
     pub fn variant(&self, variants: &[Variant]) -> Variant {

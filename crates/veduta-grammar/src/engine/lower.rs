@@ -80,7 +80,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
     if lowered.code.start.is_none() {
         let own = checked.definitions.first().map_or(0, |d| d.rules.len());
         let mut rules = lowered.code.rules.iter().take(own);
-        let able = rules.position(|rule| rule.params.is_empty());
+        let able = rules.position(|rule| rule.params.is_empty() && !rule.name.contains('.'));
         lowered.code.start = able.or((own > 0).then_some(0));
     }
     lowered
@@ -197,6 +197,16 @@ impl<'a> Lowering<'a> {
     pub fn place(&self, name: Ident) -> usize {
         let end = Instance::end_of(self.instances, self.instance, self.text(name), self.program);
         end.unwrap_or(self.instance)
+    }
+
+    /// The number of the rule that an importing file has for the one that a name means.
+    pub fn grafted(&self, name: Ident, arity: usize) -> Option<usize> {
+        let text = self.text(name);
+        let last = text.rsplit('.').next().unwrap_or(text);
+        let (all, program) = (self.instances, self.program);
+        let place = self.place(name);
+        let (instance, rule) = Instance::graft(all, place, last, arity, program, self.checked)?;
+        Some(self.numbers.rule(instance, rule))
     }
 
     fn definitions(&mut self, definitions: &[Definition], code: &mut Code) {

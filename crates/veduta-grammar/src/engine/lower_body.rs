@@ -52,7 +52,19 @@ impl Lowering<'_> {
 
     /// A rule, an operation, or, where the name is neither, a leaf.
     fn call(&mut self, call: &Call) -> Step {
-        match self.target(call.name) {
+        let target = self.target(call.name);
+        let is_rule = matches!(target, Some(Target::Rule { .. } | Target::Leaf)) && !call.leaf;
+        if let Some(rule) = self
+            .grafted(call.name, call.args().len())
+            .filter(|_| is_rule)
+        {
+            return Step::Rule {
+                rule,
+                args: self.exprs(call.args()),
+                span: call.span,
+            };
+        }
+        match target {
             Some(Target::Rule { index, .. }) => Step::Rule {
                 rule: self.numbers.rule(self.place(call.name), index),
                 args: self.exprs(call.args()),

@@ -125,7 +125,8 @@ impl Parser<'_> {
         if !matches!(self.kind(), TokenKind::Name | TokenKind::Leaf) {
             return self.fail("expected a rule, a function or `attr`".to_string());
         }
-        let left = self.left_side()?;
+        let name = self.dotted_rule_name()?;
+        let left = self.left_side_after(name)?;
         match self.kind() {
             TokenKind::Assign => self.value_item(ValueKeyword::Function, left),
             TokenKind::Arrow => self.rule_item(RuleKeyword::None, left),
@@ -157,8 +158,26 @@ impl Parser<'_> {
         }))
     }
 
+    /// The name of a definition. Before `-->` it may be that of an import's rule: `lib.Facade`.
+    fn dotted_rule_name(&mut self) -> Parsed<Ident> {
+        let after = match self.kind_at(self.at() + 1) {
+            TokenKind::OpenParen => self.after_partner(self.at() + 1),
+            _ => Some(self.at() + 1),
+        };
+        if self.is(TokenKind::Name) && after.is_some_and(|at| self.kind_at(at) == TokenKind::Arrow)
+        {
+            let span = self.advance().span;
+            return Ok(self.ident(span));
+        }
+        self.plain_name("of a definition")
+    }
+
     fn left_side(&mut self) -> Parsed<LeftSide> {
         let name = self.plain_name("of a definition")?;
+        self.left_side_after(name)
+    }
+
+    fn left_side_after(&mut self, name: Ident) -> Parsed<LeftSide> {
         let params = self.params()?;
         let locals = self.locals()?;
         Ok(LeftSide {
