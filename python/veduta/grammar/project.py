@@ -3,7 +3,8 @@
 A file that a rule file names is looked for beside the rule file, beside the files that it imports,
 in `assets` of the project, in its `rules`, in the project itself, and in libraries that the call
 names; nowhere else, and never through a link that leads out of them. A project is the folder that
-has the rule file below its `rules`, beside `assets`, `models` or a project file.
+has the rule file below its `rules`, beside `assets`, `models` or a project file. Without one the
+folder `rules` above the file is all that there is of it.
 """
 
 from __future__ import annotations
@@ -51,8 +52,16 @@ class SearchPath:
         if plain.startswith("/"):
             first, _, rest = plain.lstrip("/").partition("/")
             named = [folder for folder in self.folders if folder.name == first]
-            return [folder / rest for folder in (*named, *self.folders)] if rest else []
-        return [folder / plain for folder in self.folders]
+            if not rest:
+                return []
+            found = [folder / rest for folder in (*named, *self.folders)]
+            return found + self._below_rules(rest)
+        return [folder / plain for folder in self.folders] + self._below_rules(plain)
+
+    def _below_rules(self, name: str) -> list[Path]:
+        """Where `rules/NAME` may be if the project is not one of the folders, but its rules are."""
+        first, _, rest = name.partition("/")
+        return [folder / rest for folder in self.folders if first == RULES == folder.name]
 
     def holds(self, path: Path) -> bool:
         """Whether a file is there, and lies in the folders that nothing may leave."""
@@ -64,14 +73,16 @@ class SearchPath:
 
 def find_project(rules: Path) -> Path | None:
     """The project that a rule file belongs to; None where it belongs to none."""
-    folder = Path(os.path.abspath(rules)).parent
-    for _ in range(HIGHEST):
-        if folder.name == RULES and any((folder.parent / sign).exists() for sign in SIGNS):
+    for folder in _rules_above(rules):
+        if any((folder.parent / sign).exists() for sign in SIGNS):
             return folder.parent
-        if folder.parent == folder:
-            break
-        folder = folder.parent
     return None
+
+
+def _rules_above(rules: Path) -> list[Path]:
+    """The folders `rules` that a rule file lies in or below, the nearest first."""
+    above = Path(os.path.abspath(rules)).parents
+    return [folder for folder in above[:HIGHEST] if folder.name == RULES]
 
 
 def search_path(
@@ -83,14 +94,18 @@ def search_path(
     """
     own = rules.parent
     found = find_project(rules) if project is None else project
-    folders = [own]
-    if found is not None:
+    folders, roots = [own], [own]
+    if found is None:
+        folders += _rules_above(rules)[:1]
+        roots += folders[1:]
+    else:
         _require_folder("--project", found)
         folders += [found / "assets", found / RULES, found]
+        roots.append(found)
     for library in libraries:
         _require_folder("--library", library)
         folders.append(library)
-    roots = [own if found is None else found, own, *libraries]
+        roots.append(library)
     within = tuple(dict.fromkeys(str(real_path(root)) for root in roots))
     return SearchPath(tuple(dict.fromkeys(folders)), within)
 

@@ -76,6 +76,17 @@ def test_imports_by_paths_of_the_workspace_and_upwards(project: Path, path: str)
     derived(rules)
 
 
+def test_imports_that_begin_with_rules_are_found_without_a_project(tmp_path: Path) -> None:
+    write(tmp_path / "plain/rules/parts/body.cga", "Body --> extrude(6) A.")
+    write(tmp_path / "plain/secret.cga", "Body --> NIL")
+    text = 'import C : "rules/parts/body.cga"\n@StartRule\nLot --> C.Body'
+    rules = read_rules(write(tmp_path / "plain/rules/deep/house.cga", text))
+    assert [Path(name).name for name, _ in rules.files] == ["house.cga", "body.cga"]
+    derived(rules)
+    outside = 'import C : "../../secret.cga"\nLot --> C.Body'
+    assert len(read_rules(write(tmp_path / "plain/rules/deep/bad.cga", outside)).files) == 1
+
+
 def test_a_library_is_looked_in_where_the_call_names_it(project: Path, tmp_path: Path) -> None:
     write(tmp_path / "lib/ESRI.lib/rules/Trees.cga", "Tree --> extrude(3) T.")
     text = 'import T : "/ESRI.lib/rules/Trees.cga"\n@StartRule\nLot --> T.Tree'
