@@ -257,3 +257,22 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_size_below_zero_mirrors_at_the_origin() {
+    let told = |rules: &str| said(&format!("Lot --> {rules}"));
+    let behind = "print(scope.sz) print(scope.tz) print(geometry.area)";
+    // The lot is 10 m by 6 m.
+    assert_eq!(
+        told(&format!("s('1, '1, '-0.5) {behind}")),
+        ["3", "-3", "30"]
+    );
+    let inside_out =
+        "extrude(2) s('1, '1, '-1) comp(f) { object.top : A } A --> print(scope.elevation)";
+    assert_eq!(told(inside_out), ["0"]);
+    let twice =
+        "extrude(2) s('-1, '1, '-1) comp(f) { object.top : A } A --> print(scope.elevation)";
+    assert_eq!(told(twice), ["2"]);
+    let beam = "comp(f) { all : A } A --> s('1, '1, -0.2) primitiveCube() print(scope.sz)";
+    assert_eq!(told(beam), ["0.2"]);
+}

@@ -70,6 +70,12 @@ pub fn mirror_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Res
 /// shapes stay closed, outside out.
 pub fn mirror(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let signs = signs(run, op, frame)?;
+    mirror_along(frame, signs);
+    Ok(())
+}
+
+/// Mirrors the geometry along the axes that have -1.
+pub fn mirror_along(frame: &mut Frame, signs: DVec3) {
     let form = &mut frame.state.form;
     let solid = form.geometry.is_solid();
     form.geometry = match &form.geometry {
@@ -90,7 +96,6 @@ pub fn mirror(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         .state
         .carry_marks(|point| scope.world((scope.unit(point) - 0.5) * signs + 0.5));
     frame.changed();
-    Ok(())
 }
 
 /// Points of a flat scope have 0 along the axis without extent.

@@ -6,6 +6,8 @@ use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
+use super::scopes::mirror_along;
+use super::solids::reverse;
 use super::{axes, length, number, word};
 use crate::shape::Scope;
 
@@ -16,12 +18,21 @@ pub fn move_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
     Ok(())
 }
 
-/// `s(x, y, z)`: the size of the scope; what is in it grows with it.
+/// `s(x, y, z)`: the size of the scope; what is in it grows with it. Along axes with a size below zero
+/// it is mirrored at the scope's origin, inside out where they are one or three.
 pub fn resize(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let size = lengths(run, op, 0, frame)?;
+    let given = lengths(run, op, 0, frame)?;
     let scope = frame.state.form.scope;
-    let size = size.max(DVec3::ZERO);
+    let size = given.abs();
     place(frame, Scope { size, ..scope });
+    if given.min_element() < 0.0 {
+        let signs = DVec3::select(given.cmplt(DVec3::ZERO), DVec3::NEG_ONE, DVec3::ONE);
+        mirror_along(frame, signs);
+        if signs.element_product() < 0.0 {
+            reverse(run, op, frame)?;
+        }
+        place(frame, frame.state.form.scope.moved(given.min(DVec3::ZERO)));
+    }
     Ok(())
 }
 
