@@ -136,6 +136,21 @@ fn streets_are_at_the_edges_that_have_one() {
 }
 
 #[test]
+fn older_words_for_sides_at_streets() {
+    let width = numbers(&[6.0, 8.0, 0.0, 0.0]);
+    let given = [("/edgeattr/streetWidth", width)];
+    let text = "Lot --> extrude(3) comp(f) { streetSide : P(\"at\") | noStreetSide : P(\"off\") } \
+                P(s) --> print(s)";
+    let sorted = |given: &[(&str, Value)]| {
+        let mut found = said(text, square(), given);
+        found.sort();
+        found
+    };
+    assert_eq!(sorted(&given), ["at", "at", "off", "off"]);
+    assert_eq!(sorted(&[]), ["at", "off", "off", "off"]);
+}
+
+#[test]
 fn places_on_earth() {
     // Half a degree east of 9, 0.00001 of a degree for each metre.
     let told = numbers(&[500.0, 600.0, 9.5, 47.0, 1e-5, 0.0, 0.0, 1e-5]);

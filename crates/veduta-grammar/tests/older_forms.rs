@@ -55,6 +55,42 @@ fn older_operations_do_what_newer_ones_do() {
     assert_eq!(said(&format!("Lot --> s(4, '1, '1) {longest}")), ["6"]);
 }
 
+#[test]
+fn cells_without_a_size_take_what_is_left() {
+    let told = |cells: &str| said(&format!("Lot --> split(x) {cells} A --> print(scope.sx)"));
+    // The lot is 10 m wide.
+    assert_eq!(told("{ A }"), ["10"]);
+    assert_eq!(
+        told("{ 2 : A | split(z) { 1 : A | ~1 : NIL } | 3 : A }"),
+        ["2", "5", "3"]
+    );
+    assert_eq!(
+        told("{ 4 : A | split(x) { 2 : A }* }"),
+        ["4", "2", "2", "2"]
+    );
+}
+
+#[test]
+fn colours_of_three_digits_and_an_older_name_of_the_opacity() {
+    let values = "print(material.color.rgb) print(material.color.a)";
+    assert_eq!(
+        said(&format!("Lot --> color(\"#1af\") {values}")),
+        ["#11aaff", "1"]
+    );
+    assert_eq!(
+        said(&format!("Lot --> color(\"#1af8\") {values}"))[0],
+        "#11aaff"
+    );
+    let half = "set(material.color.a, 0.5) print(material.opacity)";
+    assert_eq!(said(&format!("Lot --> {half}")), ["0.5"]);
+}
+
+#[test]
+fn a_texture_as_high_as_a_flat_shape_derives() {
+    let flat = "setupProjection(0, scope.xy, 2, '1) projectUV(0) print(geometry.uMin(0))";
+    assert_eq!(said(&format!("Lot --> {flat}")), ["0"]);
+}
+
 fn project() -> Options {
     let names = [
         "a/roof.png",

@@ -15,7 +15,7 @@ const PLAIN: &[&str] = &[
     "material.name", "material.shader", "material.opacity", "material.shininess",
     "material.reflectivity", "material.bumpValue", "material.metallic", "material.roughness",
     "material.color.r", "material.color.g", "material.color.b",
-    "material.color.rgb",
+    "material.color.a", "material.color.rgb",
     "material.ambient.r", "material.ambient.g", "material.ambient.b",
     "material.specular.r", "material.specular.g", "material.specular.b",
     "material.emissive.r", "material.emissive.g", "material.emissive.b",

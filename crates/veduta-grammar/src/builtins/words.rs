@@ -38,6 +38,8 @@ pub const COMPONENT_SELECTORS: Words = &[
     "street.left",
     "street.right",
     "street.side",
+    "streetSide",
+    "noStreetSide",
     "uv.left",
     "uv.right",
     "uv.bottom",

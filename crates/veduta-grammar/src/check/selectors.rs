@@ -82,6 +82,7 @@ impl Checker<'_> {
                     ..
                 } => {
                     self.expr(selector, NONE);
+                    self.says_a_size(selector.span);
                     depth.iter().for_each(|depth| self.expr(depth, NONE));
                     if *combined {
                         let message = "`=` combines what a selector selects; sizes take `:`";
@@ -90,6 +91,13 @@ impl Checker<'_> {
                     self.body(body);
                 }
             }
+        }
+    }
+
+    fn says_a_size(&mut self, size: Span) {
+        if size.range().is_empty() {
+            let message = "an older form: a cell without a size is one of `~1`";
+            self.diagnostics.add(Diagnostic::warning(size, message));
         }
     }
 

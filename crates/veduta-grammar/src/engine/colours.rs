@@ -66,15 +66,21 @@ fn ramp(args: &[Value]) -> Result<Value, String> {
     Ok(Value::text(&format!("#{r:02x}{g:02x}{b:02x}")))
 }
 
-/// The channels of `#rrggbb`, and the opacity where it is given.
+/// The channels of `#rrggbb`, and the opacity where it is given. Of `#rgb` each digit counts twice.
 pub fn parsed(text: &str) -> Option<([f32; 3], Option<f32>)> {
     let digits = text.strip_prefix('#')?;
-    if !digits.is_ascii() || !(digits.len() == 6 || digits.len() == 8) {
+    let width = match digits.len() {
+        3 | 4 => 1,
+        6 | 8 => 2,
+        _ => return None,
+    };
+    if !digits.is_ascii() {
         return None;
     }
     let mut channels = Vec::with_capacity(4);
-    for at in (0..digits.len()).step_by(2) {
-        let value = u8::from_str_radix(&digits[at..at + 2], 16).ok()?;
+    for at in (0..digits.len()).step_by(width) {
+        let value = u8::from_str_radix(&digits[at..at + width], 16).ok()?;
+        let value = if width == 1 { value * 17 } else { value };
         channels.push(f32::from(value) / 255.0);
     }
     Some((

@@ -90,13 +90,15 @@ const SHOWN: &[&str] = &[
     "material.colormap",
 ];
 const COLOUR: &str = "material.color.rgb";
+/// An older name of the opacity.
+const ALPHA: &str = "material.color.a";
 
 /// The names of all properties.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    single_names().chain([COLOUR])
+    single_names().chain([ALPHA, COLOUR])
 }
 
-/// The names of all properties but the one that is three in one.
+/// The names of all properties but those that are others too.
 fn single_names() -> impl Iterator<Item = &'static str> {
     let kept = KEPT.iter().chain(LAID).map(|entry| entry.0);
     SHOWN.iter().copied().chain(kept)
@@ -113,7 +115,7 @@ pub fn get(look: &Look, name: &str) -> Option<Value> {
             let [r, g, b] = look.colour.map(|c| (c * 255.0).round() as u8);
             Value::text(&format!("#{r:02x}{g:02x}{b:02x}"))
         }
-        "material.opacity" => Value::Number(f64::from(look.opacity)),
+        ALPHA | "material.opacity" => Value::Number(f64::from(look.opacity)),
         "material.colormap" => match &look.texture {
             Some(path) => Value::Text(path.clone()),
             None => Value::text(""),
@@ -158,7 +160,7 @@ pub fn set(look: &mut Look, name: &str, value: &Value, tiles: &Tiles) -> Result<
                 parsed(&text).ok_or_else(|| format!("`{text}` is no colour: #rrggbb"))?;
             look.colour = colour;
         }
-        "material.color.a" | "material.opacity" => look.opacity = share()?,
+        ALPHA | "material.opacity" => look.opacity = share()?,
         "material.colormap" => {
             let path = value.to_string();
             look.tile = tile_of(tiles, &path)?;

@@ -153,6 +153,7 @@ impl Run<'_> {
 
     /// Whether a word means a component. Where it is known which edges of the start shape have a
     /// street before them, `street.front` means what stands there, and its like none of that.
+    /// `streetSide` and `noStreetSide` are older words for it and for the other sides.
     fn is_meant(
         &self,
         choosing: &Choosing,
@@ -160,6 +161,13 @@ impl Run<'_> {
         at: usize,
         span: Span,
     ) -> Result<bool, Fault> {
+        if word == "streetSide" {
+            return self.is_meant(choosing, "street.front", at, span);
+        }
+        if word == "noStreetSide" {
+            return Ok(choosing.is_meant("object.side", at, span)?
+                && !self.is_meant(choosing, "street.front", at, span)?);
+        }
         let side = match word.strip_prefix("street.") {
             Some("side") | None => return choosing.is_meant(word, at, span),
             Some(_) if !self.has_streets() => return choosing.is_meant(word, at, span),

@@ -106,6 +106,11 @@ fn cell(words: &mut Words, cell: &Cell<Body>) -> Doc {
         } => cells(words, list, *repeats),
         Cell::Part {
             selector,
+            body: does,
+            ..
+        } if selector.span.range().is_empty() => body(words, does),
+        Cell::Part {
+            selector,
             depth,
             body: does,
             ..

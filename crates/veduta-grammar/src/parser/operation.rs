@@ -1,14 +1,18 @@
 //! Operations with their arguments and blocks.
 
 use super::cursor::{Parsed, Parser};
-use crate::ast::{Block, Body, Call, Cell, Operation};
+use crate::ast::{Block, Body, Call, Cell, Expr, ExprKind, Operation, Size};
 use crate::token::TokenKind;
+use crate::Span;
 
 /// Operations that work with the shapes of a rule: the operation that follows them, or a block.
 pub(crate) const TAKES_OPERATION: [&str; 4] = ["inline", "union", "subtract", "intersect"];
 
 /// Has cells with two sizes (`length : depth : …`), and a second block.
 pub(crate) const TAKES_DEPTHS: &str = "splitAndSetbackPerimeter";
+
+/// Its cells have sizes, which older files leave out where a cell takes all that is left.
+const SPLIT: &str = "split";
 
 /// Whether the cells of a block have one size or selector, or two sizes.
 #[derive(Clone, Copy, PartialEq)]
@@ -69,7 +73,13 @@ impl Parser<'_> {
         };
         let takes_operation = TAKES_OPERATION.contains(&self.slice(start));
         let block = if self.is(TokenKind::OpenBrace) {
-            Some(self.nested(|parser| parser.block(sizes, takes_operation))?)
+            let block = self.nested(|parser| parser.block(sizes, takes_operation))?;
+            Some(match block {
+                Block::Body { body, span } if self.slice(start) == SPLIT => {
+                    self.one_cell(*body, span)
+                }
+                block => block,
+            })
         } else if takes_operation {
             Some(self.nested(Self::operation_as_block)?)
         } else {
@@ -162,6 +172,16 @@ impl Parser<'_> {
                 span,
             });
         }
+        if sizes == Sizes::One && self.starts_split() {
+            let body = part(self)?;
+            return Ok(Cell::Part {
+                selector: share_at(start),
+                depth: None,
+                combined: false,
+                body,
+                span: self.since(start),
+            });
+        }
         let selector = self.selector()?;
         let combined = match self.kind() {
             TokenKind::Colon => false,
@@ -183,4 +203,36 @@ impl Parser<'_> {
             span: self.since(start),
         })
     }
+
+    /// Whether `split(x) {` is next, as no size or selector begins.
+    fn starts_split(&self) -> bool {
+        self.slice(self.span()) == SPLIT
+            && self.kind_at(self.at() + 1) == TokenKind::OpenParen
+            && (self.after_partner(self.at() + 1))
+                .is_some_and(|after| self.kind_at(after) == TokenKind::OpenBrace)
+    }
+
+    /// `{ operations }` where cells with sizes are meant.
+    fn one_cell(&mut self, body: Body, span: Span) -> Block {
+        let part = Cell::Part {
+            selector: share_at(span),
+            depth: None,
+            combined: false,
+            body,
+            span,
+        };
+        Block::Cells {
+            cells: vec![part],
+            repeat: self.eat(TokenKind::Star),
+            span: self.since(span),
+        }
+    }
+}
+
+/// `~1` for a cell that says no size; its place is empty.
+fn share_at(start: Span) -> Expr {
+    let span = Span::new(start.range().start, start.range().start);
+    let value = Box::new(Expr::new(ExprKind::Number(1.0), span));
+    let size = Size::Floating;
+    Expr::new(ExprKind::Sized { size, value }, span)
 }

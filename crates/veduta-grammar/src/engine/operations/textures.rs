@@ -41,7 +41,10 @@ pub fn set_up(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     for (place, axis) in [u, v].into_iter().enumerate() {
         let direction = along.col(axis);
         let extent = extent(frame, direction);
-        let size = tile(run, op, 2 + place, extent, frame)?;
+        let size = match tile(run, op, 2 + place, extent, frame)? {
+            size if size == 0.0 && extent == 0.0 => 1.0, // flat along this axis
+            size => size,
+        };
         if size == 0.0 {
             return Err(Fault::at(op.span, "a texture of 0 m"));
         }
