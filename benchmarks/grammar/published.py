@@ -1,8 +1,10 @@
-"""Rule files in the manner of published projects: how many derive as the reference has it.
+"""Rule files of published projects, and in their manner: how many derive as the reference has it.
 
-`python benchmarks grammar/published [--keep]` derives the files of two folders beside the tests,
-`published` and `published_more`, on a lot of 20 x 30 m and compares what they report with what was
-worked out by hand. How many came out right at the first try was written down then.
+The files of others are not ours to keep: how many of each project derived on a lot of 20 x 30 m,
+when it was read for the first time and now, stands here as it was found. `python benchmarks
+grammar/published [--keep]` adds our own, two folders beside the tests, `published` and
+`published_more`: it derives them on the same lot and compares what they report with what was worked
+out by hand.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import argparse
 import math
 import runpy
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from record import Row, keep_or_print
@@ -24,9 +26,49 @@ from veduta.grammar.rules import check_rules, read_rules
 
 TESTS = Path(__file__).parents[2] / "tests" / "unit" / "grammar"
 
+ENGINE_MENDED = {
+    "Duke-BC-DL-for-Energy-Infrastructure/CityEngine-Files": (3, 3, 3),
+    "FraknToastr/CityEngine": (2, 2, 2),
+    "GD3Duk/cityengine": (1, 2, 2),
+    "Lesrac/ivis_cityengine": (1, 1, 1),
+    "bohaohuang/Synthinel": (0, 4, 4),
+    "cuthb3rt/cityengine-test": (1, 1, 1),
+    "jbdong/CityEngine_cga": (13, 14, 14),
+    "niteshbagde/ESRI_CityEngine_custom_CGA": (1, 1, 1),
+    "twak, two projects": (2, 3, 3),
+    "urschrei/CityEngine-Twitter": (1, 1, 1),
+    "virtualarchitectures/OS_Building_Height_In_CityEngine": (1, 2, 2),
+}
+"""Projects that the engine was mended with in view: at the first try, today, and files."""
+UNSEEN = {
+    "Duke-BC-DL-for-Energy-Infrastructure/CityEngine-Files": (3, 4, 4),
+    "FraknToastr/CityEngine": (1, 1, 1),
+    "UAV-GeoLAB/MAP-CGA-Rules": (0, 1, 5),
+    "amybam/WRENVR": (0, 1, 1),
+    "hejibo/VirtualCity": (3, 3, 3),
+    "jbdong/CityEngine_cga": (21, 24, 24),
+    "rchurch26/IGME-386": (3, 3, 3),
+    "rkoksal, a rule of random masses": (1, 1, 1),
+    "swiss, a rule of streets": (1, 1, 1),
+}
+"""Those read after that, by the engine as it was at that time."""
+
 FIRST_TRY = {"the forty": (33, 40), "fifteen more": (14, 15)}
 """Right, and how many there were."""
 NOTES = (
+    "Published files count that are whole in what was published and can start by themselves. Not"
+    " so are five libraries whose rules all have parameters, seven files that are no valid CGA,"
+    " and those whose imports were not published. Long lists of four files were shortened. It"
+    " counts that a file derives with its own values, with a box where an asset is missing; three"
+    " leave nothing, as they say. No values were worked out; pictures were looked at.",
+    "The bound for published files is 80 % at the first try: 33 of 43 unseen (77 %) miss it."
+    " Three of the ten name a function that the reference does not have (`geometry.lowerheight`),"
+    " one an attribute that it does not have (`uid`); those four are refused today, too. Before"
+    " any mending 55 of all 77 derived (71 %); today 73 (95 %).",
+    "What was mended: rules of imports that the importing file tells otherwise (`lib.Rule -->"
+    " ...`), imports from `rules/` without a project, leaves in lower case, `streetSide` and"
+    " `noStreetSide`, cells of `split` without a size, `#rgb`, `material.color.a`, a texture as"
+    " high as a flat shape, and, as a picture showed, `s` with a size below zero, which mirrors.",
     "Each file was written from the reference alone, before it was tried; right: all areas and"
     " counts are those worked out by hand. First try: before the engine was mended for them.",
     "The bound is 90 % at the first try: 33 of 40 (82 %) missed it, 14 of 15 (93 %) of"
@@ -49,7 +91,10 @@ def main() -> None:
         (name, more["FOLDER"] / f"{name}.cga", wanted) for name, wanted in more["CASES"].items()
     ]
     sets = {"the forty": forty, "fifteen more": others}
-    rows: list[Row] = []
+    rows = [
+        *_of_others("published, the engine was mended with them in view", ENGINE_MENDED),
+        *_of_others("published, read after that", UNSEEN),
+    ]
     for told, files in sets.items():
         right, count = FIRST_TRY[told]
         each = [_tried(told, *one) for one in files]
@@ -59,6 +104,15 @@ def main() -> None:
         )
         rows += each
     keep_or_print("grammar-published", rows, NOTES, keep)
+
+
+def _of_others(told: str, projects: Mapping[str, tuple[int, int, int]]) -> list[Row]:
+    def row(counts: Iterable[int]) -> dict[str, str | float]:
+        first, today, count = counts
+        return {"files": told, "first_try": f"{first} of {count}", "state": f"{today} of {count}"}
+
+    sums = [sum(column) for column in zip(*projects.values(), strict=True)]
+    return [row(sums), *(row(counts) | {"file": name} for name, counts in projects.items())]
 
 
 def _tried(told: str, name: str, path: Path, wanted: Mapping[str, float]) -> Row:
