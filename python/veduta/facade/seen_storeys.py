@@ -33,6 +33,9 @@ _NO_ROOF = 0.75
 # Where no sky is seen, the share of the fullest row's windows, and of the usual area, from which on
 # a row above the eaves is a storey.
 _AS_MANY, _AS_LARGE = 0.6, 0.5
+# From which height, as a share of the picture's, a column begins below the upper edge; the share of
+# such columns from which on an outline tells of no gable.
+_LEVEL, _UNKNOWN = 0.02, 0.15
 # Window heights in a storey, where no second row tells how high one is.
 _WINDOWS_IN_STOREY = 2.0
 _PLANE = "storeys: doubtful, so the front is a plane with openings and has no floors"
@@ -62,7 +65,7 @@ def storeys_of(
 
     wall: (h, w) the chance of wall.
     """
-    under = _under_gable(skyline, elements, wall, evidence.height)
+    under = _under_gable(evidence, skyline, elements, wall)
     return under or _storeys(evidence, skyline, elements, wall, options)
 
 
@@ -120,13 +123,13 @@ def _is_storey_above(
 
 
 def _under_gable(
-    skyline: Skyline, elements: list[SeenElement], wall: Float, height: int
+    evidence: Evidence, skyline: Skyline, elements: list[SeenElement], wall: Float
 ) -> Storeys | None:
     """Floors below the eaves of a gable or a hipped roof; None where the outline shows none.
 
     wall: (h, w) the chance of wall.
     """
-    gable = find_gable(skyline)
+    gable = None if _is_cut_off(evidence, skyline) else find_gable(skyline)
     parameters = RowParameters()
     windows = [e for e in elements if e.kind == "window"]
     if gable is None or not are_sure(windows, parameters):
@@ -137,11 +140,18 @@ def _under_gable(
         return None
     boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in below]).reshape(-1, 4)
     rows = window_rows(boxes, parameters)
-    floors = floors_of_rows(rows, eaves, eaves, height, parameters)
+    floors = floors_of_rows(rows, eaves, eaves, evidence.height, parameters)
     kind: RoofKind = "gable" if is_wall(gable, wall, skyline, GableParameters().wall) else "hip"
     if floors is None or not is_even(rows, eaves, parameters):
         return None
     return Storeys(replace(floors, boundaries=[eaves, *floors.boundaries[1:]]), [], gable, kind)
+
+
+def _is_cut_off(evidence: Evidence, skyline: Skyline) -> bool:
+    """Whether the outline is that of the photo, which leans, and not the building's."""
+    first = evidence.valid.argmax(axis=0)
+    unknown = (first > _LEVEL * evidence.height) & (skyline.rows <= first + 2)
+    return float(unknown.mean()) > _UNKNOWN
 
 
 def _is_over_slopes(window: SeenElement, gable: Gable, width: int) -> bool:

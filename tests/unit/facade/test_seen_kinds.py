@@ -70,6 +70,14 @@ def test_no_gable_has_windows_beside_its_slopes(beside: bool) -> None:
     assert (found.gable is None) == beside
 
 
+def test_a_corner_of_no_photo_is_no_slope_of_a_gable() -> None:
+    skyline, elements = gabled(beside=False)
+    inside = np.arange(320)[:, None] >= skyline.rows[None] - 1
+    evidence = gather(np.full((320, 200, 3), 180, np.uint8), inside)
+    wall = np.ones((evidence.height, evidence.width), np.float32)
+    assert storeys_of(evidence, skyline, elements, wall, FacadeOptions()).gable is None
+
+
 def test_the_eyes_tell_a_white_wall_from_a_white_sky() -> None:
     pixels = np.full((300, 200, 3), 245, np.uint8)
     pixels[150:] = 120
