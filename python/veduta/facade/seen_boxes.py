@@ -45,11 +45,15 @@ def on_their_floors(
     """The elements, of which shops and doors are on the ground floor alone.
 
     A shop above it is an awning or a sign, and left out; a door above it is a window down to the
-    floor. A front without floors (one boundary) keeps both wherever they are.
+    floor. A front without floors (one boundary), or without any opening on its ground floor, keeps
+    both wherever they are.
     """
-    if len(boundaries) < 2:
-        return list(elements)
     ground = boundaries[-1]
+    on_ground = [
+        e for e in elements if e.kind != "balcony" and 0.5 * (e.y0 + e.y1) >= boundaries[-1]
+    ]
+    if len(boundaries) < 2 or not on_ground:
+        return list(elements)
 
     def is_above(e: SeenElement) -> bool:
         return (

@@ -31,6 +31,7 @@ def test_a_shop_above_the_ground_floor_is_left_out_and_a_door_there_is_a_window(
 def test_a_front_without_floors_keeps_both_wherever_they_are() -> None:
     some = [element("shop", 0.0, 40.0), element("door", 20.0, 50.0)]
     assert on_their_floors(some, [20]) == some
+    assert on_their_floors(some, FLOORS) == some
 
 
 def test_marks_of_which_few_are_sure_are_no_front() -> None:
