@@ -19,6 +19,7 @@ from veduta.facade.document import Source
 from veduta.facade.options import EyesOptions, FacadeOptions, RectifyOptions
 from veduta.facade.rectify import rectify
 from veduta.imaging.read import read_image
+from veduta.run.errors import NotFoundError
 
 pytestmark = pytest.mark.regression
 
@@ -53,7 +54,7 @@ def test_ecp_facades_are_read(veduta_data: Path) -> None:
         ),
         Matches(0, 0, 0),
     )
-    assert 0.55 <= windows.f1 <= 0.90
+    assert 0.55 <= windows.f1 <= 0.93
     assert windows.recall >= 0.5
     assert 550 < windows.true < 700, "the truth itself"
     storeys = [(r.document.storeys if r.document else 0) for r in readings]
@@ -93,11 +94,14 @@ SEEN_STOREYS = (2, 3, 2, 2, 1, 1, 1, 2, 3, 3)
 
 @pytest.mark.slow
 def test_of_close_views_the_storeys_are_counted_or_doubtful(veduta_data: Path) -> None:
-    """Street photos that show parts of facades. The plain eyes are not sure of most."""
+    """Street photos that show parts of facades. The plain eyes are not sure of most.
+
+    One shows a passage and a door: no front, and refused.
+    """
     photos = "facades/street-cc0/images"
     paths = sorted((_folder(veduta_data, photos) / photos).glob("*.jpg"))[1::2]
     assert len(paths) == 10
-    doubtful = right = wrong = 0
+    doubtful = right = wrong = refused = 0
     for path, storeys in zip(paths, SEEN_STOREYS, strict=True):
         photo = read_image(path)
         height, width = photo.pixels.shape[:2]
@@ -105,10 +109,15 @@ def test_of_close_views_the_storeys_are_counted_or_doubtful(veduta_data: Path) -
         rectified = rectify(photo, RectifyOptions())
         plain, _ = analyse(rectified, source, FacadeOptions(eyes=EyesOptions(eyes="plain")))
         doubtful += plain.storeys_doubtful
-        learned, _ = analyse(rectified, source, FacadeOptions())
+        try:
+            learned, _ = analyse(rectified, source, FacadeOptions())
+        except NotFoundError:
+            refused += 1
+            continue
         is_sure = not learned.storeys_doubtful
         right += is_sure and learned.storeys == storeys
         wrong += is_sure and learned.storeys != storeys
     assert doubtful >= 8
     assert right >= 4
     assert wrong <= 3
+    assert refused <= 1
