@@ -1,9 +1,9 @@
 """Plans of strangers that once failed: what is right of each is kept right.
 
-Not yet right, and therefore only in part here: of `heb_73351` the inner walls, which are paler than
-the outer ones, are not found; of `jp_madori` the storeys are parted, but the rooms within, between
-two lines of a pixel, are not; of `fr_13` the bedrooms lose what lies behind height lines, and its
-stairs; of `b3d_3` some thin inner walls are not found, so that its scale by doors is wrong.
+Not yet right, and therefore only in part here: of `jp_madori` the storeys are parted, but the rooms
+within, between two lines of a pixel, are not; of `fr_13` the bedrooms lose what lies behind height
+lines, and its stairs; of `b3d_3` two bedrooms are one, and so are study and suite; of `b3d_5` the
+door of the shower room, whose leaf hides its stub, is not.
 """
 
 from __future__ import annotations
@@ -52,6 +52,15 @@ def total(storey: Storey) -> float:
 
 def test_hebrew_writing_mirrors_no_sheet(cases: Path) -> None:
     assert find_position(read_image(cases / "heb_73351.jpg").pixels).is_upright
+
+
+def test_a_coloured_garden_is_paper_and_a_sellers_rooms_are_found(cases: Path) -> None:
+    """Nine rooms and a corridor; bedrooms have 10 to 16 m2 by the sizes that are printed."""
+    (storey,) = read(cases / "heb_73351.jpg").document.storeys
+    sizes = sorted(room.area_m2 for room in storey.rooms)
+    assert 9 <= len(sizes) <= 10
+    assert 80.0 < sum(sizes) < 130.0
+    assert 30.0 < sizes[-1] < 50.0
 
 
 def test_storeys_side_by_side_are_two_by_their_titles(cases: Path) -> None:
@@ -103,7 +112,9 @@ def test_cars_are_no_walls(cases: Path) -> None:
     garage = next(room for room in storey.rooms if "garage" in room.name)
     # Twice as long as deep and closed, with no wall in it.
     assert len(garage.outline_m) <= 8
-    assert len(storey.rooms) >= 7
+    # Beds and cars are painted over, so that thin inner walls count, and doors say the scale.
+    assert len(storey.rooms) >= 12
+    assert 24.0 < garage.area_m2 < 42.0
 
 
 def test_chimney_breasts_are_no_slanted_walls(cases: Path) -> None:
@@ -131,4 +142,4 @@ def test_feet_without_marks_make_a_house(cases: Path) -> None:
 def test_storeys_of_two_files_agree_in_scale(cases: Path) -> None:
     ground, first = read(cases / "two_g.png", cases / "two_f.png").document.storeys
     assert total(first) == pytest.approx(36.97, rel=0.03)
-    assert ground.scale.metres_per_px == pytest.approx(first.scale.metres_per_px, rel=0.05)
+    assert ground.scale.metres_per_px == pytest.approx(first.scale.metres_per_px)
