@@ -1,10 +1,11 @@
 """How many plans in hands that the reader was not built for become whole houses to walk in.
 
-    python benchmarks plan/plan_hands FOLDER [--seeds A..B] [--hands agent] [--keep]
+    python benchmarks plan/plan_hands FOLDER [--seeds A..B] [--hands agent] [--most N] [--keep]
 
 The sheets are `veduta.synthetic.plans.hands`: a seller's, a builder's, an agent's, a Japanese plan,
 an old scan, an ink sketch on a photo. Each goes through `veduta plan` as anybody calls it. They
-were drawn by somebody who had not yet looked at how the reader finds walls.
+were drawn by somebody who had not yet looked at how the reader finds walls. What was judged stands
+in `judged.jsonl` of FOLDER, so that a run that was broken off, or read N sheets, goes on.
 """
 
 from __future__ import annotations
@@ -12,10 +13,12 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from kept_lines import kept_of
 from PIL import Image
 from plan_scores import Hits, Score, score
 from plan_sets import seeds
@@ -50,8 +53,22 @@ class Judged:
     whole: bool
 
 
-def judged(seed: int, hand: str, folder: Path) -> Judged:
-    """Read and build the sheet of a seed in a hand; what came out stays in FOLDER."""
+def judged(name: str, folder: Path) -> dict[str, object]:
+    """Read and build the sheet `HAND-SEED`; what came out stays in FOLDER."""
+    hand, _, seed = name.rpartition("-")
+    return asdict(_judged(int(seed), hand, folder))
+
+
+def restored(fields: dict[str, Any]) -> Judged:
+    """What `judged` gave."""
+    parts: dict[str, Any] = {
+        key: Hits(**value) if isinstance(value, dict) else value
+        for key, value in fields["score"].items()
+    }
+    return Judged(Score(**parts), fields["says_scale"], fields["whole"])
+
+
+def _judged(seed: int, hand: str, folder: Path) -> Judged:
     picture, (truth,) = hand_drawn(seed, hand)
     folder.mkdir(parents=True, exist_ok=True)
     sheet, out = folder / f"{hand}-{seed}.png", folder / f"{hand}-{seed}"
@@ -100,16 +117,21 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--seeds", type=seeds, default=SEEDS)
     parser.add_argument("--hands", nargs="+", choices=HANDS, default=[*HANDS])
+    parser.add_argument("--most", type=int, help="so many sheets that were not read yet")
     parser.add_argument("--keep", action="store_true")
     asked = parser.parse_args()
-    rows, everything = [], []
-    for hand in asked.hands:
-        every = [judged(seed, hand, asked.folder) for seed in asked.seeds]
-        everything += every
-        rows.append(row_of(hand, every))
-        print(rows[-1], flush=True)
-    rows.append(row_of("all", everything))
-    keep_or_print("plan-hands", rows, NOTES, asked.keep)
+    asked.folder.mkdir(parents=True, exist_ok=True)
+    names = [f"{hand}-{seed}" for hand in asked.hands for seed in asked.seeds]
+    kept = kept_of(
+        names, asked.folder / "judged.jsonl", asked.most, lambda name: judged(name, asked.folder)
+    )
+    by_hand = {
+        hand: [restored(kept[name]) for name in names if name in kept and name.startswith(hand)]
+        for hand in asked.hands
+    }
+    rows = [row_of(hand, every) for hand, every in by_hand.items() if every]
+    rows.append(row_of("all", [one for every in by_hand.values() for one in every]))
+    keep_or_print("plan-hands", rows, NOTES, asked.keep and len(kept) == len(names))
 
 
 if __name__ == "__main__":
