@@ -43,8 +43,8 @@ NOTES = (
     " goes through 0.85 of them.",
     "At the first try on these seeds (rooms right; openings; whole): seller 0.00, 0.59, 0 of 4 (one"
     " not read); builder 0.88, 0.64, 4; agent 1.00, 0.55, 4; madori 0.73, 0.73, 1; scan 0.97, 0.99,"
-    " 3; ink 0.94, 0.37, 1 of the first two, the third ended in a traceback, the fourth was not tried."
-    " It was mended on seeds 100 to 103.",
+    " 3; ink 0.94, 0.37, 1 of the first two, the third ended in a traceback, the fourth was not"
+    " tried. It was mended on seeds 100 to 103.",
     "A builder's `family / dining` is read as a dining room, of his and the seller's sheets nothing"
     " says the scale. Missed: openings of ink (strokes that waver look like windows), rooms of"
     " madori (baths that stand at walls of two lines look like walls).",
