@@ -76,7 +76,11 @@ def without_fields(pixels: NDArray[np.uint8], rule: FieldRule = RULE) -> NDArray
     grain = float(np.median(np.abs(dark - smooth)[field])) if field.any() else 0.0
     fine = cv2.GaussianBlur(dark, (0, 0), 0.5 * rule.grain_px) if grain > rule.grainy else dark
     stays = fine > tone + rule.beyond * (darkest - tone)
-    return np.where((field & ~stays)[:, :, None], np.uint8(255), pixels)
+    painted = field & ~stays & (fine < rule.pale * darkest)
+    # Of a patch or two there is no need, and their lines would lose their edges.
+    if painted.mean() < rule.much:
+        return pixels
+    return np.where(painted[:, :, None], np.uint8(255), pixels)
 
 
 def _fields(

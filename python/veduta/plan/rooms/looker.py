@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -209,7 +210,9 @@ class Looker:
         place = (*key, *(int(value) for value in gap.start))
         if place not in self.seen:
             view = look_at(gap, self.sheet)
-            self.seen[place] = judge(gap, view, self.found.thin_px, outdoors)
+            # A leaf without its trace is too doubtful to close a wall by.
+            seen = replace(view, bare=())
+            self.seen[place] = judge(gap, seen, self.found.thin_px, outdoors)
         return self.seen[place]
 
 
