@@ -50,7 +50,8 @@ def check_options(rules: _core.GrammarRules, path: Path, options: GrammarOptions
 def _check_start(rules: _core.GrammarRules, path: Path, start: str | None) -> None:
     starts = rules.starts
     if not starts:
-        raise InputError(path, "has no rule that can start", "Give it a rule without parameters.")
+        remedy = 'Say its first rule\'s arguments, as --start "Lot(9)".'
+        raise InputError(path, "has no rule that starts without arguments", remedy)
     if start is not None and start not in starts:
         raise InputError(
             f"--start {start}", f"is no rule of {path.name} that can start", _near(start, starts)

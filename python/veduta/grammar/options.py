@@ -21,7 +21,9 @@ class DeriveOptions(Options):
         default=0, description="of all that is random; each lot draws its own from it"
     )
     start: str | None = Field(
-        default=None, description="rule to start with; the one with @StartRule if not given"
+        default=None,
+        description="rule to start with, with its arguments if it takes any: `Lot(9)`;"
+        " the one with @StartRule if not given",
     )
     style: str | None = Field(
         default=None, description="style of the rule file to derive in; `Default` if not given"
@@ -154,5 +156,8 @@ class GrammarOptions(Options):
 
     def with_seed(self, seed: int) -> GrammarOptions:
         """The same with another seed."""
-        derive = self.derive.model_copy(update={"seed": seed})
-        return self.model_copy(update={"derive": derive})
+        return self.model_copy(update={"derive": self.derive.model_copy(update={"seed": seed})})
+
+    def starting_with(self, start: str | None) -> GrammarOptions:
+        """The same with another start rule."""
+        return self.model_copy(update={"derive": self.derive.model_copy(update={"start": start})})

@@ -38,7 +38,7 @@ from veduta.grammar.project_files import project_files
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.reported import write_joined as write_reports
-from veduta.grammar.rules import compile_rules, find_rules, read_rules
+from veduta.grammar.rules import compile_rules, find_rules, read_rules, with_start
 from veduta.grammar.squares import FEW, Square, Squares, squares_of, told
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.place.place import Standing as PartStanding
@@ -193,6 +193,8 @@ def _call(
     room: the folder that large lots may lie in.
     """
     rules = read_rules(find_rules(rules_name), project, libraries)
+    rules, start = with_start(rules, options.derive.start)
+    options = options.starting_with(start)
     compiled = compile_rules(rules, options.derive.style)
     options = check_options(compiled, rules.path, options)
     assets = Library(rules.search).digest(compiled)

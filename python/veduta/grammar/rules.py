@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 
@@ -28,6 +29,10 @@ MAX_BYTES = 8 * 2**20
 MAX_FILES = 256
 STYLES = Path(__file__).parent / "styles"
 SUFFIX = ".cga"
+CALLED = "CalledFirst"
+"""The rule that a start rule with arguments is called by."""
+_CALL = re.compile(r"([A-Za-z_][\w.]*)\s*\([^\n]*\)")
+_HEAD = re.compile(r"^\s*([A-Za-z_]\w*)\s*\([^\n()]*\)\s*-->", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -112,6 +117,30 @@ def read_rules(
                 continue
             open_names.append(name)
     return RuleFiles(path, tuple(files.items()), with_folders(search, files), tuple(notes))
+
+
+def with_start(rules: RuleFiles, start: str | None) -> tuple[RuleFiles, str | None]:
+    """A start rule that is called with arguments, `Lot(9)`, as a rule of its own; its name.
+
+    It is written behind the last line of the main file. InputError where it is no call.
+    """
+    if start is None or "(" not in start:
+        return rules, start
+    call = _CALL.fullmatch(start.strip())
+    if call is None:
+        fault = "is no rule with arguments"
+        raise InputError(f"--start {start}", fault, 'Write --start "Lot(9)".')
+    takes = sorted({head for _, text in rules.files for head in _HEAD.findall(text)})
+    if call[1].rsplit(".", 1)[-1] not in takes:
+        fault = f"is no rule of {rules.path.name} that takes arguments"
+        hint = f"It has: {', '.join(takes[:12])}." if takes else "It has none."
+        raise InputError(f"--start {start}", fault, hint)
+    (main, text), *others = rules.files
+    name = CALLED
+    while name in text:
+        name += "_"
+    files = ((main, f"{text}\n\n{name} --> {start.strip()}\n"), *others)
+    return replace(rules, files=files), name
 
 
 def _imported(importer: str, written: str, search: SearchPath) -> str | None:

@@ -9,8 +9,16 @@ from pathlib import Path
 import pytest
 
 from veduta import _core
+from veduta.grammar.derivation import derive, parse
 from veduta.grammar.layout import formatted, write_formatted
-from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules, style_names
+from veduta.grammar.rules import (
+    check_rules,
+    compile_rules,
+    find_rules,
+    read_rules,
+    style_names,
+    with_start,
+)
 from veduta.run.errors import InputError
 
 
@@ -138,3 +146,35 @@ def test_the_language_page_says_what_derives(repository: Path) -> None:
     rows = re.findall(r"^\| `(\w+)` \|.*\|([^|]*)\|$", page, re.MULTILINE)
     said = {name for name, derives in rows if derives.strip().startswith("yes")}
     assert said == set(_core.grammar_operations())
+
+
+def test_a_start_rule_with_arguments_is_called_by_one_of_its_own(tmp_path: Path) -> None:
+    text = "CalledFirst --> NIL\nLot(h, name) --> extrude(h) Mass(name)\nMass(n) --> X."
+    main = write(tmp_path, main=text)
+    rules, name = with_start(read_rules(main), 'Lot(2 * 4.5, "a")')
+    assert name == "CalledFirst_"
+    compile_rules(rules)
+    (_, whole), *_ = rules.files
+    built = derive(parse(whole), [[(0, 0), (6, 0), (6, 4), (0, 4)]], start=name)
+    z = built.place().parts["building"].triangles()[0][:, 2]
+    assert z.max() - z.min() == pytest.approx(9.0)
+    plain = read_rules(main)
+    assert with_start(plain, "Lot") == (plain, "Lot")
+    assert with_start(plain, None) == (plain, None)
+
+
+@pytest.mark.parametrize(
+    ("start", "fault", "remedy"),
+    [
+        ("Lott(9)", "no rule of main.cga that takes arguments", "It has: Lot"),
+        ("Lot(9", "is no rule with arguments", 'Write --start "Lot(9)"'),
+        ("Lot(9) X\nY(1)", "is no rule with arguments", "Write"),
+        ("Mass(1)", "no rule of main.cga that takes arguments", "It has: Lot"),
+    ],
+)
+def test_a_start_that_cannot_be_called(start: str, fault: str, remedy: str, tmp_path: Path) -> None:
+    main = write(tmp_path, main="Lot(h) --> extrude(h) Mass\nMass --> X.")
+    with pytest.raises(InputError) as told:
+        with_start(read_rules(main), start)
+    assert fault in told.value.fault
+    assert remedy in told.value.remedy
