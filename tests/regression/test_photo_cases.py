@@ -28,9 +28,10 @@ from veduta.photos.intake.from_colmap import given_model
 from veduta.photos.intake.given import Given
 from veduta.photos.intake.read import PhotoRecord, read_photos, sizes_of
 from veduta.photos.options import CameraOptions, ModelOptions, PhotosOptions, WallOptions
-from veduta.photos.structure import Structure, structure_of
+from veduta.photos.structure import Structure, structure_of, without_parallel
 from veduta.photos.walls.find_walls import find_walls
-from veduta.photos.walls.step import set_upright
+from veduta.photos.walls.level_edges import turned_to_edges
+from veduta.photos.walls.step import segments_by_photo, set_upright
 from veduta.photos.walls.wall import Wall
 from veduta.photos.world.control_axes import settled_axes
 from veduta.photos.world.control_file import read_control
@@ -150,15 +151,18 @@ def street(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> Street:
     photos = read_photos(call.sources).photos
     component: Component = given_model(call.models, photos).components[0]
     by_id = {photo.image_id: read_image(photo.path).pixels for photo in photos}
-    upright = set_upright(component, lambda structure: lambda row: by_id[structure.image_ids[row]])
+    edges = segments_by_photo(by_id.__getitem__)
+    plain = replace(component, structure=without_parallel(component.structure))
+    upright = set_upright(plain, edges)
     outlines = json.loads(_text(cases, "buildingFootprint.json"))
     outlines.pop("crs")
     (folder / "model.geojson").write_text(json.dumps(outlines))
     model = read_city_model(folder / "model.geojson", ModelOptions(crs="EPSG:2154"))
     assert upright.upright is not None
+    found = find_walls(upright.structure, WallOptions(), 0)
     return Street(
         upright.structure,
-        find_walls(upright.structure, WallOptions(), 0),
+        turned_to_edges(found, upright.structure, edges(upright.structure)),
         upright.upright.whole_sd_rad,
         tuple(_at(photo, positions[photo.name]) for photo in photos),
         model,

@@ -63,7 +63,11 @@ def lay_components(
         edges = segments_by_photo(DecodedPhotos(photos))
         for number, component in enumerate(components):
             progress("walls", number / len(components))
-            upright.append(_upright(component, photos, edges))
+            near = replace(component, structure=without_parallel(component.structure))
+            if lost := len(component.structure.points) - len(near.structure.points):
+                told = f"component {number}: {lost} points whose distance nobody knows"
+                step.rejected.append(told)
+            upright.append(_upright(near, photos, edges))
             wanted = number == 0 or references.model is not None
             walls.append(_walls(upright[-1].structure, options, edges) if wanted else ())
         step.counts["walls"] = sum(map(len, walls))
@@ -87,7 +91,6 @@ def _upright(
     photos: Sequence[PhotoRecord],
     edges: Callable[[Structure], SegmentsOf],
 ) -> Component:
-    component = replace(component, structure=without_parallel(component.structure))
     component = which_way_up(component, photos)
     if looks_down(component.structure):
         return component

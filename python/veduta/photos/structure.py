@@ -19,6 +19,10 @@ from veduta.run.errors import NotFoundError
 
 PARALLEL_RAD = np.deg2rad(0.1)
 """Lines of sight that meet at less tell a distance to no better than a quarter of it."""
+FEWEST_KEPT, KEPT_SHARE = 100, 0.5
+"""A structure of which fewer points, or a smaller share of them, were left, is that of a survey
+from afar: its points stay.
+"""
 STRAY_SHARE = 0.02
 """Share of the points at each end of each axis that lie far off."""
 CAUCHY_PX = 1.0
@@ -321,7 +325,7 @@ def without_outliers(structure: Structure, most_px: float) -> Structure:
 
 def without_parallel(structure: Structure, least_rad: float = PARALLEL_RAD) -> Structure:
     """The same without points whose lines of sight are nearly parallel: how far off they lie,
-    nobody knows. A structure that has no others stays as it is.
+    nobody knows. A structure of which hardly any would be left stays as it is.
     """
     along = structure.points[structure.point_of] - structure.centres()[structure.image_of]
     along /= np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
@@ -332,4 +336,5 @@ def without_parallel(structure: Structure, least_rad: float = PARALLEL_RAD) -> S
     most = np.zeros(len(structure.points))
     np.maximum.at(most, structure.point_of, beside)
     kept = most >= 0.5 * least_rad
-    return structure.with_points(kept) if kept.any() and not kept.all() else structure
+    few = kept.sum() < max(FEWEST_KEPT, KEPT_SHARE * len(kept))
+    return structure if few or kept.all() else structure.with_points(kept)

@@ -81,6 +81,20 @@ def test_a_wall_is_not_turned_away_from_its_points() -> None:
     assert found is askew
 
 
+def test_corners_that_were_closed_stay_closed() -> None:
+    structure, wall = _street()
+    aside = replace(
+        wall, id="w001", start=wall.end, end=wall.end - 0.5 * wall.width * wall.outward, rms=0.0
+    )
+    askew = _askew(wall, np.deg2rad(1.0))
+    corner = askew.end
+    both = [askew, replace(aside, start=corner, end=corner + (aside.end - aside.start))]
+    courses = _courses(wall)
+    found = turned_to_edges(both, structure, lambda row: _seen(structure, courses, row))
+    assert found[0].along @ wall.along > 0.9999
+    assert found[1].start == pytest.approx(found[0].end)
+
+
 def test_lines_every_way_turn_nothing() -> None:
     structure, wall = _street()
     rng = np.random.default_rng(5)

@@ -46,5 +46,7 @@ def test_what_lies_nobody_knows_how_far_off_is_left_out() -> None:
 
 def test_all_parallel_stays_as_it_is() -> None:
     _, _, street = simulated_street(4)
-    few = street.sampled(50, np.random.default_rng(2))
-    assert without_parallel(few, 3.0) is few
+    some = street.sampled(400, np.random.default_rng(2))
+    assert without_parallel(some, 3.0) is some
+    widest = np.quantile(_widest_rad(some), 0.7)
+    assert without_parallel(some, 2.0 * float(widest)) is some  # less than half would be left

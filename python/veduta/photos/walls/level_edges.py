@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 
 from veduta.photos.cameras.vertical_edges import SegmentsOf, looked_at, rays_of
 from veduta.photos.structure import Structure
+from veduta.photos.walls.ends import with_closed_corners, without_overshoot
+from veduta.photos.walls.find_walls import CORNER
+from veduta.photos.walls.point_quality import typical_reach
 from veduta.photos.walls.wall import Wall
 
 Floats = NDArray[np.float64]
@@ -49,7 +52,9 @@ def turned_to_edges(
     segments_of: SegmentsOf,
     rule: LevelEdges = LEVEL_EDGES,
 ) -> tuple[Wall, ...]:
-    """The walls, each turned about its middle to go as its level edges do."""
+    """The walls, each turned about its middle to go as its level edges do, and their corners closed
+    again.
+    """
     unsure = [wall for wall in walls if wall.rms > rule.flat_rad * wall.width]
     if not unsure:
         return tuple(walls)
@@ -59,7 +64,10 @@ def turned_to_edges(
         angle = angles.get(wall.id, 0.0)
         turned = _turned(wall, angle, structure.points) if angle else wall
         found.append(turned if turned.rms <= rule.most_off * wall.rms else wall)
-    return tuple(found)
+    if all(now is before for now, before in zip(found, walls, strict=True)):
+        return tuple(walls)
+    reach = CORNER * typical_reach(structure)
+    return tuple(without_overshoot(with_closed_corners(found, reach), reach))
 
 
 def _turns(wall: Wall, structure: Structure, segments_of: SegmentsOf, rule: LevelEdges) -> float:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from veduta.photos.structure import Structure
 from veduta.photos.walls.point_quality import typical_reach
@@ -53,9 +54,10 @@ def _sights(structure: Structure, rows: NDArray[np.int64]) -> Sights:
 def places_of(structure: Structure) -> NDArray[np.int64]:
     """(p,) from how many places each point is seen."""
     centres = structure.centres()
-    apart = np.linalg.norm(centres[:, None] - centres[None], axis=2)
     # The first photo within reach names the place.
-    place = (apart <= SAME_PLACE * typical_reach(structure)).argmax(axis=1)
+    reach = SAME_PLACE * typical_reach(structure)
+    near = cKDTree(centres).query_ball_point(centres, reach, return_sorted=True)
+    place = np.array([np.atleast_1d(rows)[0] for rows in near])
     seen = np.unique(np.stack([structure.point_of, place[structure.image_of]]), axis=1)
     return np.bincount(seen[0], minlength=len(structure.points))
 
