@@ -10,6 +10,10 @@ from numpy.typing import NDArray
 Boxes = NDArray[np.float64]
 
 
+_LEAST_PX = 1.0
+"""A narrower box, which a person may have written, is no narrower than a pixel."""
+
+
 @dataclass(frozen=True)
 class OwnRepeats:
     """Offsets (k, 2) in pixels, x y, the most frequent first, and the height of a storey (px)."""
@@ -39,7 +43,7 @@ def own_repeats(windows: Boxes, parameters: OwnRepeatParameters | None = None) -
     p = parameters or OwnRepeatParameters()
     if len(windows) < 2:
         return OwnRepeats(np.zeros((0, 2), np.int64), 0.0)
-    width = windows[:, 2] - windows[:, 0]
+    width = np.maximum(windows[:, 2] - windows[:, 0], _LEAST_PX)
     middle = 0.5 * (windows[:, 0] + windows[:, 2])
     typical = float(np.median(width))
     one, other = np.nonzero(~np.eye(len(windows), dtype=np.bool_))
