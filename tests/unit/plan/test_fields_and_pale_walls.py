@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from veduta.plan.clean.fields import without_fields
+from veduta.plan.clean.sheet import clean_sheet
 from veduta.plan.walls.pale import pale_walls
 from veduta.plan.walls.solid import Thickness
 
@@ -48,6 +49,63 @@ def test_a_shadow_that_ends_softly_is_no_field() -> None:
     pixels -= 130.0 * np.clip((220.0 - away) / 160.0, 0.0, 1.0)[:, :, None]
     shadow = pixels.astype(np.uint8)
     assert np.array_equal(without_fields(shadow), shadow)
+
+
+def thick_house(wall_px: int, tone: tuple[int, int, int], inner_px: int = 15) -> np.ndarray:
+    """Three rooms within filled walls, two doors and two windows in black lines, 1000 x 800 px."""
+    pixels = np.full((800, 1000, 3), 255, np.uint8)
+    white, black, low, high = (255, 255, 255), (0, 0, 0), 60 + wall_px, 740 - wall_px
+    cv2.rectangle(pixels, (60, 60), (940, 740), tone, -1)
+    cv2.rectangle(pixels, (low, low), (940 - wall_px, high), white, -1)
+    cv2.rectangle(pixels, (500, low), (500 + inner_px, high), tone, -1)
+    cv2.rectangle(pixels, (500, 400), (940 - wall_px, 400 + inner_px), tone, -1)
+    for y in (200, 520):
+        cv2.rectangle(pixels, (498, y), (502 + inner_px, y + 80), white, -1)
+        cv2.line(pixels, (500, y), (420, y), black, 3)
+        cv2.ellipse(pixels, (500, y), (80, 80), 0, 90, 180, black, 2)
+    for x in (200, 650):
+        cv2.rectangle(pixels, (x, 60), (x + 120, 60 + wall_px), white, -1)
+        for y in (60, 60 + wall_px // 2, 60 + wall_px):
+            cv2.line(pixels, (x, y), (x + 120, y), black, 2)
+    return pixels
+
+
+THICK = [
+    (45, (128, 128, 128)),
+    (60, (100, 100, 100)),
+    (45, (178, 80, 60)),
+    (60, (214, 150, 130)),
+]
+
+
+@pytest.mark.parametrize(("wall_px", "tone"), THICK)
+@pytest.mark.parametrize("lines", [False, True])
+def test_thick_walls_with_a_fill_are_no_fields(
+    wall_px: int, tone: tuple[int, int, int], lines: bool
+) -> None:
+    pixels = thick_house(wall_px, tone)
+    if lines:  # so much black that the fill is far from the darkest
+        cv2.rectangle(pixels, (150, 480), (420, 640), (0, 0, 0), -1)
+    assert np.array_equal(without_fields(pixels), pixels)
+
+
+def test_a_lawn_beside_a_house_with_thick_grey_walls_is_painted_white_alone() -> None:
+    pixels = np.full((1000, 1000, 3), 255, np.uint8)
+    pixels[:800] = thick_house(45, (128, 128, 128))
+    cv2.rectangle(pixels, (150, 480), (420, 640), (0, 0, 0), -1)
+    cv2.rectangle(pixels, (60, 790), (940, 980), GREEN, -1)
+    cleared = without_fields(pixels)
+    assert (cleared[800:970, 70:930] == 255).all()
+    assert np.array_equal(cleared[:780], pixels[:780])
+
+
+@pytest.mark.parametrize("wall_px", [45, 60])
+def test_a_house_with_thick_grey_walls_keeps_them_as_ink(wall_px: int) -> None:
+    tone = {45: 128, 60: 100}[wall_px]
+    cleaned = clean_sheet(thick_house(wall_px, (tone, tone, tone)))
+    ink = cv2.resize(cleaned.ink, (1000, 800), interpolation=cv2.INTER_AREA)
+    assert (ink[300:500, 65 : 55 + wall_px] > 0.5).all()
+    assert (ink[745 - wall_px : 735, 70:930] > 0.5).all()
 
 
 @pytest.mark.parametrize("turns", [True, False])

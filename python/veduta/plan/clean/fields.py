@@ -1,7 +1,8 @@
 """Lawns, decks and floors of one tone, which are broader than walls: paper, however dark.
 
 Sellers colour what lies around a house and in it. Such a field would be ink, and the house in it a
-hole; it is painted white, and what is much darker in it stays: walls and lines.
+hole; it is painted white, and what is much darker in it stays: walls and lines. Thick walls with a
+grey or coloured fill are no fields: they are long bands, where lawns, beds and cars are blobs.
 """
 
 from __future__ import annotations
@@ -34,6 +35,12 @@ class FieldRule:
     a field.
     steep, sharp: this share of a field's edge is as steep as this part of its tone: shadows end
     softly.
+    wall, slender, around, near: outer walls are bands no wider than this share of the drawing's
+    longer side, so many times longer than wide, and together so many times as long as that side.
+    Shorter pieces of their tone, up to so many times as wide, are walls between openings. In
+    eleven sheets of strangers and two of CubiCasa fields are wider than 0.12 of that side, or up to
+    2.4 times longer than wide (beds, cars); a grey wall of 45 px in a house of 880 px is 0.06 wide
+    with its blur, and all are 2.6 times as long as the house.
     """
 
     broad: float = 0.05
@@ -51,6 +58,10 @@ class FieldRule:
     paper: float = 0.25
     steep: float = 0.4
     sharp: float = 0.4
+    wall: float = 0.09
+    slender: float = 3.0
+    around: float = 1.5
+    near: float = 1.25
 
 
 RULE = FieldRule()
@@ -88,7 +99,8 @@ def _fields(
 ) -> tuple[NDArray[np.bool_], NDArray[np.float32]]:
     """Where fields are, and how dark each is."""
     rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
-    side = max(3, round(rule.broad * float(max(np.ptp(rows), np.ptp(columns)))))
+    longer = float(max(np.ptp(rows), np.ptp(columns)))
+    side = max(3, round(rule.broad * longer))
     square = np.ones((side, side), np.uint8)
     level = np.asarray(cv2.morphologyEx(smooth, cv2.MORPH_OPEN, square), np.float32)
     core = (level > rule.dark) & (level < rule.pale * darkest)
@@ -98,7 +110,57 @@ def _fields(
     like = cv2.morphologyEx((core | rim).astype(np.uint8), cv2.MORPH_OPEN, least)
     _, labels = cv2.connectedComponents(like, connectivity=4)
     own = np.unique(labels[core])
-    return np.isin(labels, own[own > 0]), np.where(core, level, around).astype(np.float32)
+    tone = np.where(core, level, around).astype(np.float32)
+    field = np.isin(labels, own[own > 0])
+    return field & ~_walls(field, smooth, longer, rule), tone
+
+
+def _walls(
+    field: NDArray[np.bool_], smooth: NDArray[np.float32], longer: float, rule: FieldRule
+) -> NDArray[np.bool_]:
+    """Those of the fields that lie in walls: a corner is broader than its wall."""
+    labels, area, width = _pieces(field)
+    mean = np.bincount(labels[field], smooth[field], minlength=len(area)) / np.maximum(area, 1)
+    left = width <= rule.wall * longer
+    left[0] = False
+    wall = np.zeros(len(area), np.bool_)
+    least = np.ones((2 * round(rule.thin * rule.broad * longer / 2.0) + 1,) * 2, np.uint8)
+    for _ in range(MOST_COLOURS):
+        if not left.any():
+            break
+        level = mean[np.argmax(np.where(left, area, 0))]
+        alike = (np.abs(smooth - level) < rule.alike).astype(np.uint8)
+        band = _bands(cv2.morphologyEx(alike, cv2.MORPH_OPEN, least) > 0, longer, rule)
+        same = left & (np.abs(mean - level) < rule.alike)
+        within = np.bincount(labels[field & band], minlength=len(area))
+        wall |= same & (within > 0.5 * area)
+        left &= ~same
+    return np.asarray(wall[labels], np.bool_)
+
+
+def _bands(ink: NDArray[np.bool_], longer: float, rule: FieldRule) -> NDArray[np.bool_]:
+    """Where ink of one tone is bands of even width that go around a house, if it is any."""
+    labels, area, width = _pieces(ink)
+    narrow = width <= rule.wall * longer
+    narrow[0] = False
+    band = narrow & (area >= rule.slender * width**2)
+    if (area / width)[band].sum() < rule.around * longer:
+        return np.zeros_like(ink)
+    return np.asarray((narrow & (width <= rule.near * width[band].max()))[labels], np.bool_)
+
+
+def _pieces(
+    mask: NDArray[np.bool_],
+) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.float64]]:
+    """What is connected: labels, the area of each in px2 and its greatest width in px."""
+    count, found = cv2.connectedComponents(mask.astype(np.uint8), connectivity=4)
+    labels = np.asarray(found, np.int32)
+    framed = cv2.copyMakeBorder(mask.astype(np.uint8), 1, 1, 1, 1, cv2.BORDER_CONSTANT, value=0)
+    inside = cv2.distanceTransform(framed, cv2.DIST_L2, 5)[1:-1, 1:-1]
+    width = np.ones(count, np.float64)
+    np.maximum.at(width, labels[mask], 2.0 * inside[mask])
+    area = np.bincount(labels[mask], minlength=count)
+    return labels, area, width
 
 
 def _sharp(
