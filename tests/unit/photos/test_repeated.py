@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -12,7 +13,7 @@ from known_structure import structure_seen
 from veduta.photos.mapping.conflicts import ClosePair
 from veduta.photos.mapping.doubt import doubtful_pairs
 from veduta.photos.mapping.repeated import there_once
-from veduta.photos.mapping.same_place import different_places
+from veduta.photos.mapping.same_place import AHEAD, different_places
 from veduta.photos.mapping.votes import Matched
 from veduta.photos.structure import Structure
 
@@ -83,6 +84,38 @@ def test_photos_that_do_not_stand_in_one_place_are_not_compared() -> None:
     assert different_places(structure, close((1, 3), apart_deg=10.0), matched) == frozenset()
     structure, matched = photos((0, 0, 1, 1), step_px=40.0)  # whatever the model says
     assert different_places(structure, close((1, 3)), matched) == frozenset()
+
+
+@pytest.mark.parametrize(
+    "steps_m", [(0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.2, 0.2), (0.0, 0.2, 0.4, 0.4)]
+)
+def test_photos_ahead_of_each_other_are_not_compared(steps_m: tuple[float, ...]) -> None:
+    """Against each pair by itself; observations lie in no order, and photos see different much."""
+    structure, matched = photos((0, 0, 1, 1))
+    rng = np.random.default_rng(5)
+    points = np.column_stack([rng.uniform(-2, 2, (90, 2)), rng.uniform(3.0, 9.0, 90)])
+    seen = [rng.choice(90, 20 + 15 * photo, replace=False) for photo in range(4)]
+    order = rng.permutation(sum(map(len, seen)))
+    poses = structure.cam_from_world.copy()
+    poses[:, 2, 3] = -np.array(steps_m)
+    moved = replace(
+        structure,
+        cam_from_world=poses,
+        points=points,
+        image_of=np.repeat(np.arange(4), [len(own) for own in seen])[order],
+        point_of=np.concatenate(seen)[order],
+    )
+
+    def is_ahead(first: int, second: int) -> bool:
+        place = np.array([0.0, 0.0, steps_m[first - 1]])
+        both = sorted(set(seen[first - 1].tolist()) & set(seen[second - 1].tolist()))
+        off = np.median([np.linalg.norm(points[point] - place) for point in both])
+        return abs(steps_m[second - 1] - steps_m[first - 1]) > AHEAD * off
+
+    pairs = close(*combinations((1, 2, 3, 4), 2))
+    assert different_places(moved, pairs, matched) == {
+        pair for pair in ((1, 3), (1, 4), (2, 3), (2, 4)) if not is_ahead(*pair)
+    }
 
 
 def test_what_matches_between_different_places_is_there_twice() -> None:

@@ -8,7 +8,7 @@ Zach, Irschara and Bischof, CVPR 2008.)
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import pycolmap
@@ -51,23 +51,40 @@ def different_places(
     if not near:
         return frozenset()
     row_of = {image: row for row, image in enumerate(structure.image_ids)}
-    near = [pair for pair in near if _ahead(structure, *(row_of[id_] for id_ in pair)) <= AHEAD]
     repeated = _repeated(matched)
-    found = set()
+    found = []
     for pair in near:
         rows = (row_of[pair[0]], row_of[pair[1]])
         differing, telling = _compared(structure, rows, pair, matched, repeated)
         if differing >= max(FEWEST, DIFFERS * telling):
-            found.add(pair)
-    return frozenset(found)
+            found.append((pair, rows))
+    if not found:
+        return frozenset()
+    seen = _seen_points(structure, sorted({row for _, rows in found for row in rows}))
+    return frozenset(pair for pair, rows in found if _ahead(structure, rows, seen) <= AHEAD)
 
 
-def _ahead(structure: Structure, first: int, second: int) -> float:
+def _seen_points(structure: Structure, rows: Sequence[int]) -> dict[int, NDArray[np.int64]]:
+    """The points (rows) that some of the photos see, by the row of the photo."""
+    wanted = np.zeros(len(structure.image_ids), dtype=bool)
+    wanted[rows] = True
+    kept = wanted[structure.image_of]
+    photo_of, points = structure.image_of[kept], structure.point_of[kept]
+    order = np.argsort(photo_of, kind="stable")
+    photo_of, points = photo_of[order], points[order]
+    return {row: points[slice(*np.searchsorted(photo_of, (row, row + 1)))] for row in rows}
+
+
+def _ahead(
+    structure: Structure, rows: tuple[int, int], seen: Mapping[int, NDArray[np.int64]]
+) -> float:
     """How far the second photo (rows) was taken before or behind the first, along its view, as a
     share of the middle distance of what both see; 0 where they see nothing together.
+
+    seen: the points that each of them sees.
     """
-    seen = [structure.point_of[structure.image_of == row] for row in (first, second)]
-    both = structure.points[np.intersect1d(*seen)]
+    first, second = rows
+    both = structure.points[np.intersect1d(seen[first], seen[second])]
     if not len(both):
         return 0.0
     places, view = structure.centres()[[first, second]], structure.cam_from_world[first, 2, :3]
