@@ -49,9 +49,7 @@ def on_their_floors(
     both wherever they are.
     """
     ground = boundaries[-1]
-    on_ground = [
-        e for e in elements if e.kind != "balcony" and 0.5 * (e.y0 + e.y1) >= boundaries[-1]
-    ]
+    on_ground = any(e.kind != "balcony" and 0.5 * (e.y0 + e.y1) >= ground for e in elements)
     if len(boundaries) < 2 or not on_ground:
         return list(elements)
 
@@ -59,7 +57,7 @@ def on_their_floors(
         return (
             e.kind in ("shop", "door")
             and 0.5 * (e.y0 + e.y1) < ground
-            and e.y1 < ground + (0.25 * e.height)
+            and e.y1 < ground + 0.25 * e.height
         )
 
     kept = [e for e in elements if not (e.kind == "shop" and is_above(e))]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,15 @@ def test_a_front_without_floors_keeps_both_wherever_they_are() -> None:
     some = [element("shop", 0.0, 40.0), element("door", 20.0, 50.0)]
     assert on_their_floors(some, [20]) == some
     assert on_their_floors(some, FLOORS) == some
+
+
+def test_a_balcony_on_the_ground_floor_does_not_make_it_known() -> None:
+    """Where the ground floor shows no opening it may be hidden, and both stay as they are."""
+    awning, door = element("shop", 0.0, 40.0), element("door", 20.0, 65.0, 30.0)
+    balcony, window = element("balcony", 40.0, 110.0), element("window", 40.0, 90.0)
+    assert on_their_floors([awning, door, balcony], FLOORS) == [awning, door, balcony]
+    kept = on_their_floors([awning, door, window], FLOORS)
+    assert kept == [replace(door, kind="window"), window], "its middle is at the boundary"
 
 
 def test_marks_of_which_few_are_sure_are_no_front() -> None:
