@@ -137,6 +137,18 @@ Lot --> a.Lot b.Lot a.Front";
 }
 
 #[test]
+fn a_rule_that_only_the_importing_file_has_is_found_by_its_name_and_parameters() {
+    let library = "Lot --> Front Roof(2) Roof Tip";
+    let main = "import m : \"m.cga\"\nimport n : \"n.cga\"
+m.Front --> NIL\nm.Roof(x) --> NIL\nn.m.Tip --> NIL\nLot --> m.Lot n.Lot";
+    let middle = "import m : \"m.cga\"\nLot --> m.Lot";
+    let program = program(main, &[("m.cga", library), ("n.cga", middle)]);
+    let told = check(&program).render(&program);
+    assert!(told.contains("there is no rule `Roof`"), "{told}");
+    assert_eq!(told.matches("there is no rule").count(), 1, "{told}");
+}
+
+#[test]
 fn the_farthest_importing_file_has_the_last_word_on_a_rule() {
     let middle = "import m : \"m.cga\"\nm.Front --> print(\"middle\")\nLot --> m.Lot";
     let others = [("middle.cga", middle), ("m.cga", MASSES)];

@@ -1,6 +1,6 @@
 //! Operations and calls of rules.
 
-use super::definitions::Role;
+use super::definitions::{last_part, Role};
 use super::lookup::Place;
 use super::{Checker, Target};
 use crate::ast::{Block, Body, Call, Cell, ExprKind, Ident};
@@ -31,12 +31,13 @@ impl Checker<'_> {
         };
         let defined = self.defined(unit);
         let named = symbol.and_then(|symbol| defined.rule(symbol, count));
-        let is_start = self.text(name).rsplit('.').next() == Some("start");
+        let is_start = last_part(self.text(name)) == "start";
         let start = || {
-            let mut rules = defined.start_rules().filter(|_| is_start);
+            let mut rules = defined.start_rules();
             rules.find(|index| defined.rules[*index].arity == count)
         };
-        named.or_else(start).map(|index| (unit, index))
+        let found = named.or_else(|| is_start.then(start).flatten());
+        found.map(|index| (unit, index))
     }
 
     fn rule_call(&mut self, call: &Call, rule: Option<(usize, usize)>) {
@@ -107,13 +108,7 @@ impl Checker<'_> {
 
     /// Whether a file of the program defines a rule of this name for one that it imports.
     fn is_grafted(&self, name: &Ident, count: usize) -> bool {
-        let last = |text: &'_ str| text.rsplit('.').next().map(str::to_string);
-        let wanted = last(self.text(name));
-        let mut rules = self.definitions.iter().flat_map(|one| &one.rules);
-        rules.any(|rule| {
-            let text = self.text(&rule.name);
-            rule.arity == count && text.contains('.') && last(text) == wanted
-        })
+        self.grafts.contains(&(last_part(self.text(name)), count))
     }
 
     fn operation(&mut self, call: &Call, index: usize, operation: &Operation) {

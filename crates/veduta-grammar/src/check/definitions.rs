@@ -163,6 +163,21 @@ impl Definitions {
         (0..self.rules.len()).filter(move |index| is_start(&self.rules[*index]))
     }
 
+    /// The last part of the name, and the number of parameters, of each rule that stands for one of
+    /// an import.
+    pub(super) fn grafts<'n>(
+        &'n self,
+        names: &'n Names,
+    ) -> impl Iterator<Item = (&'n str, usize)> + 'n {
+        let named = self
+            .rules
+            .iter()
+            .map(|rule| (names.text(rule.name.symbol), rule.arity));
+        named
+            .filter(|(name, _)| name.contains('.'))
+            .map(|(name, arity)| (last_part(name), arity))
+    }
+
     /// Rules that nothing calls; the first rule and start rules are called from outside.
     pub(super) fn report_unused(
         &self,
@@ -181,6 +196,11 @@ impl Definitions {
             }
         }
     }
+}
+
+/// What follows the last dot of a name, or all of it.
+pub(super) fn last_part(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(_, last)| last)
 }
 
 fn rule_role(keyword: RuleKeyword, item: &Item, names: &Names) -> Role {

@@ -100,10 +100,12 @@ pub fn check(program: &Program) -> Checked {
         .units
         .iter()
         .any(|unit| unit.parse.diagnostics.iter().any(Diagnostic::is_error));
+    let defined = definitions.iter();
+    let grafts = defined.flat_map(|one| one.grafts(&program.names)).collect();
     let mut used = HashSet::new();
     let mut resolutions = Vec::new();
     for (unit, list) in faults.iter_mut().enumerate() {
-        let mut checker = Checker::new(program, &definitions, unit, list);
+        let mut checker = Checker::new(program, &definitions, &grafts, unit, list);
         checker.is_broken = is_broken;
         checker.file();
         used.extend(checker.used_rules);
@@ -126,6 +128,8 @@ pub fn check(program: &Program) -> Checked {
 struct Checker<'a> {
     program: &'a Program,
     definitions: &'a [Definitions],
+    /// Names and numbers of parameters of what the program's files define for their imports.
+    grafts: &'a HashSet<(&'a str, usize)>,
     unit: usize,
     diagnostics: &'a mut Diagnostics,
     targets: HashMap<u32, Target>,
@@ -142,12 +146,14 @@ impl<'a> Checker<'a> {
     fn new(
         program: &'a Program,
         definitions: &'a [Definitions],
+        grafts: &'a HashSet<(&'a str, usize)>,
         unit: usize,
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
         Self {
             program,
             definitions,
+            grafts,
             unit,
             diagnostics,
             targets: HashMap::new(),
