@@ -149,6 +149,16 @@ m.Front --> NIL\nm.Roof(x) --> NIL\nn.m.Tip --> NIL\nLot --> m.Lot n.Lot";
 }
 
 #[test]
+fn a_rule_that_takes_the_place_of_an_imports_one_calls_itself() {
+    let main =
+        "import a : \"m.cga\"\na.Front --> print(\"mine\") a.Front\n@StartRule\nLot --> a.Lot";
+    let code = code(main, &[("m.cga", MASSES)], 0);
+    let fault = derive(&code, code.start.unwrap(), lot(), &Options::default()).unwrap_err();
+    let wanted = "rules apply one within another over 1000 deep";
+    assert!(fault.message.contains(wanted), "{}", fault.message);
+}
+
+#[test]
 fn the_farthest_importing_file_has_the_last_word_on_a_rule() {
     let middle = "import m : \"m.cga\"\nm.Front --> print(\"middle\")\nLot --> m.Lot";
     let others = [("middle.cga", middle), ("m.cga", MASSES)];
