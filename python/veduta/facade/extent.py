@@ -23,16 +23,30 @@ _RAGGED = 4.2
 # Gradient (lightness steps per pixel, doubled) below which a pixel is plain.
 _PLAIN = 6.0
 _CLUSTERS = 4
-# How much the log-odds of the learned eyes count beside the colours, and the least chance for that;
-# the share of the upper edge that they must see as sky where its colours are not.
-_SEEN_WEIGHT, _SEEN_LEAST = 2.0, 0.02
-_SKY_SEEN = 0.2
 # Cost per row of a step of the skyline, and of a jump of any height (chimneys).
 _SLOPE = 0.5
 _JUMP = 12.0
 _BINS = 64
 # Lightness steps per pixel below which a pixel is of a plain surface.
 _SMOOTH = 3.0
+
+
+@dataclass(frozen=True)
+class SeenSkyParameters:
+    """What the sky that the learned eyes see counts.
+
+    `weight`: how much their log-odds count beside the log-likelihood of the colours. `least`: the
+    chance of sky, and of none, is taken for this at least. `edge`: the share of the upper edge that
+    they must see as sky where its colours are not those of one.
+    Set by hand: what they were tried on is not kept.
+    """
+
+    weight: float = 2.0
+    least: float = 0.02
+    edge: float = 0.2
+
+
+_SEEN = SeenSkyParameters()
 
 
 @dataclass(frozen=True)
@@ -88,7 +102,7 @@ def _shows_sky(evidence: Evidence, seen: Float) -> bool:
     """Whether the eyes see sky along a part of the upper edge of the photo."""
     depth = np.cumsum(evidence.valid, axis=0)
     edge = evidence.valid & (depth > 1) & (depth <= max(3, round(evidence.height * 0.02)))
-    return bool(edge.any()) and float((seen[edge] > 0.5).mean()) >= _SKY_SEEN
+    return bool(edge.any()) and float((seen[edge] > 0.5).mean()) >= _SEEN.edge
 
 
 def ridge_row(rows: NDArray[np.int64], valid: NDArray[np.bool_]) -> int:
@@ -145,8 +159,8 @@ def _sky_cost(evidence: Evidence, seeds: Float | None, seen: Float | None) -> Fl
         even = min(_EVEN, float(np.quantile(body, _SKY_IN_WALL))) if len(body) else _EVEN
         likeness = unlike[:rows] - even
     if seen is not None:
-        chance = np.clip(seen[:rows], _SEEN_LEAST, 1.0 - _SEEN_LEAST)
-        likeness = likeness + _SEEN_WEIGHT * np.log((1.0 - chance) / chance)
+        chance = np.clip(seen[:rows], _SEEN.least, 1.0 - _SEEN.least)
+        likeness = likeness + _SEEN.weight * np.log((1.0 - chance) / chance)
     # Nothing is known where there is no photo: it goes with the sky.
     likeness[~evidence.valid[:rows]] = -_EVEN
     cost = np.zeros((rows + 1, evidence.width), np.float32)

@@ -27,21 +27,37 @@ from veduta.facade.seen_rows import (
 )
 from veduta.run.errors import NotFoundError
 
-# The chance of wall above the eaves from which on there is no roof but more of the wall. Of 26
-# pictures of three sets, those with a roof have 0.71 at most, those without 0.77 and more.
-_NO_ROOF = 0.75
-# Where no sky is seen, the share of the fullest row's windows, and of the usual area, from which on
-# a row above the eaves is a storey.
-_AS_MANY, _AS_LARGE = 0.6, 0.5
-# From which height, as a share of the picture's, a column begins below the upper edge; the share of
-# such columns from which on an outline tells of no gable.
-_LEVEL, _UNKNOWN = 0.02, 0.15
-# Window heights in a storey, where no second row tells how high one is.
-_WINDOWS_IN_STOREY = 2.0
 _PLANE = "storeys: doubtful, so the front is a plane with openings and has no floors"
 _UNEVEN = "storeys: the rows of windows are not evenly apart"
 _ONE_ROW = "storeys: there is one row of windows at most"
 _UNSURE = "storeys: most windows are not sure"
+
+
+@dataclass(frozen=True)
+class StoreyParameters:
+    """When what lies above the eaves is a storey, and when an outline is the building's.
+
+    `no_roof`: the chance of wall above the eaves from which on there is no roof but more of the
+    wall. Of 26 pictures of three sets, those with a roof have 0.71 at most, those without 0.77 and
+    more.
+    `as_many`, `as_large`: where no sky is seen, the share of the fullest row's windows, and of the
+    usual area, from which on a row above the eaves is a storey.
+    `level`: from which row, as a share of the picture's height, a column of the photo begins below
+    its upper edge. `unknown`: the share of such columns, which end at the outline, from which on it
+    is that of a rectified photo and tells of no gable.
+    `windows`: window heights in a storey, where no second row tells how high one is.
+    All but the first are set by hand: what they were tried on is not kept.
+    """
+
+    no_roof: float = 0.75
+    as_many: float = 0.6
+    as_large: float = 0.5
+    level: float = 0.02
+    unknown: float = 0.15
+    windows: float = 2.0
+
+
+_STOREYS = StoreyParameters()
 
 
 @dataclass(frozen=True)
@@ -88,7 +104,7 @@ def _storeys(
     top, bottom = float(skyline.level), evidence.height
     eaves = float(plain.eaves) if plain is not None else None
     if plain is not None and (
-        float(wall[skyline.level : plain.eaves].mean()) > _NO_ROOF
+        float(wall[skyline.level : plain.eaves].mean()) > _STOREYS.no_roof
         or (bool(skyline.reason) and _is_storey_above(windows, rows, plain.eaves))
     ):
         eaves = top
@@ -115,9 +131,9 @@ def _is_storey_above(
     most = max(len(r.members) for r in below)
     usual = np.median([windows[i].width * windows[i].height for r in below for i in r.members])
     return any(
-        len(r.members) >= _AS_MANY * most
+        len(r.members) >= _STOREYS.as_many * most
         and np.median([windows[i].width * windows[i].height for i in r.members])
-        >= _AS_LARGE * usual
+        >= _STOREYS.as_large * usual
         for r in above
     )
 
@@ -150,8 +166,8 @@ def _under_gable(
 def _is_cut_off(evidence: Evidence, skyline: Skyline) -> bool:
     """Whether the outline is that of the photo, which leans, and not the building's."""
     first = evidence.valid.argmax(axis=0)
-    unknown = (first > _LEVEL * evidence.height) & (skyline.rows <= first + 2)
-    return float(unknown.mean()) > _UNKNOWN
+    unknown = (first > _STOREYS.level * evidence.height) & (skyline.rows <= first + 2)
+    return float(unknown.mean()) > _STOREYS.unknown
 
 
 def _is_over_slopes(window: SeenElement, gable: Gable, width: int) -> bool:
@@ -172,6 +188,6 @@ def _plain_floors(evidence: Evidence, skyline: Skyline, options: FacadeOptions) 
 def _plane(rows: list[WindowRow], skyline: Skyline, elements: list[SeenElement]) -> Floors:
     """A front without floors; the scale takes a storey from the height of its openings."""
     heights = [e.height for e in elements if e.kind == "window"] or [e.height for e in elements]
-    storey = _WINDOWS_IN_STOREY * float(np.median(heights))
+    storey = _STOREYS.windows * float(np.median(heights))
     top = min(float(skyline.level), min((row.top for row in rows), default=np.inf))
     return Floors([max(0, round(top))], storey, 0.0, {}, 0)
