@@ -82,7 +82,7 @@ fn the_first_rule_without_parameters_starts() {
     );
     let named = tree("Lot --> Lot.\n@StartRule Other --> Here.");
     assert_eq!(names(&named), ["Here"]);
-    assert!(fault("Wall(x) --> Brick.").contains("cannot start"));
+    assert!(fault("Wall(x) --> Brick.").contains("needs 1 argument: write --start"));
 }
 
 #[test]

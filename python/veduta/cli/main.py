@@ -14,7 +14,6 @@ import signal
 import sys
 import tempfile
 import traceback
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from types import FrameType
 from typing import NoReturn
@@ -24,6 +23,7 @@ from veduta.cli.plain_words import plain_words
 from veduta.cli.streams import drop_output, outlive_readers
 from veduta.run.errors import NO_ROOM, InputError, NotFoundError, UnfinishedError, VedutaError
 from veduta.run.names import printable
+from veduta.run.quiet import quiet_libraries
 from veduta.run.threads import same_sums_anywhere
 
 VERBS = (
@@ -53,8 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _unknown(verb)
     signal.signal(signal.SIGTERM, _stop)
     same_sums_anywhere()
-    # GEOS divides by zero where it mitres a corner that is none; what it gives is right.
-    warnings.filterwarnings("ignore", ".* encountered in buffer", RuntimeWarning)
+    quiet_libraries()
     return _guarded(verb, words, lambda: _plainly(verb, words))
 
 

@@ -53,9 +53,9 @@ def _check_start(rules: _core.GrammarRules, path: Path, start: str | None) -> No
         remedy = 'Say its first rule\'s arguments, as --start "Lot(9)".'
         raise InputError(path, "has no rule that starts without arguments", remedy)
     if start is not None and start not in starts:
-        raise InputError(
-            f"--start {start}", f"is no rule of {path.name} that can start", _near(start, starts)
-        )
+        fault = f"is no rule of {path.name} that can start without arguments"
+        hint = f'{_near(start, starts)} One that takes arguments: --start "{start}(9)".'
+        raise InputError(f"--start {start}", fault, hint)
 
 
 def _guess(text: Attribute) -> str:

@@ -41,7 +41,8 @@ def roads_among(path: Path | None, found: Found, frame: Frame) -> Roads:
         except RingFault:
             continue  # where no lot can be, either
     if placed:
-        found.notes.append(f"{len(placed)} road lines say where the fronts of lots are")
+        lines = "1 road line says" if len(placed) == 1 else f"{len(placed)} road lines say"
+        found.notes.append(f"{lines} where the fronts of lots are")
     return Roads(placed)
 
 

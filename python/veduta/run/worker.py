@@ -21,6 +21,7 @@ from multiprocessing.connection import Connection, Pipe
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from veduta.run.errors import NO_ROOM, UnwritableError, VedutaError
+from veduta.run.quiet import quiet_libraries
 from veduta.run.threads import share_cores
 
 A = TypeVar("A")
@@ -155,6 +156,7 @@ def work(pipe: int, life: int) -> None:
     connection = Connection(pipe)
     module, name, threads = connection.recv()
     _asking.append(connection)
+    quiet_libraries()
     share_cores(threads)  # before the import that loads the libraries
     function = getattr(importlib.import_module(module), name)
     # Who has no more to give, or is gone before there is an answer, ends this process's work.

@@ -48,6 +48,13 @@ def test_one_camera(
     assert places is None or kind.principal_point in places
 
 
+def test_a_focal_length_that_is_held_holds_the_middle_too() -> None:
+    structure = known_structure("PINHOLE", (1400.0, 1405.0, 780.0, 611.0), points=150)
+    assert chosen(structure, CameraOptions(focal_px=1400.0)).principal_point == "middle"
+    both = CameraOptions(focal_px=1400.0, principal_point="free", lens="pinhole")
+    assert chosen(structure, both).principal_point == "free"
+
+
 def test_a_zoom_between_the_photos() -> None:
     steps = (1.0, 1.02, 1.05)
     structure = known_structure(

@@ -167,10 +167,11 @@ impl<'a> Run<'a> {
     fn start(&mut self, rule: usize, state: State) -> Result<(), Fault> {
         let called = &self.code.rules[rule];
         if !called.params.is_empty() {
+            let count = called.params.len();
             let message = format!(
-                "{} needs {} arguments and cannot start",
-                called.name,
-                called.params.len()
+                "{name} needs {count} argument{s}: write --start \"{name}(...)\"",
+                name = called.name,
+                s = if count == 1 { "" } else { "s" },
             );
             return Err(Fault::at(called.span, message).within(called.unit));
         }

@@ -179,7 +179,13 @@ def _kinds(
         places: Sequence[PrincipalPoint] = ("middle", "free")
         if options.principal_point != "auto":
             places = (options.principal_point,)
-        elif sharing == "per-photo" or min(sizes.values()) < FEWEST_SHARING:
+        elif (
+            sharing == "per-photo"
+            or min(sizes.values()) < FEWEST_SHARING
+            or options.focal_px is not None
+        ):
+            # With a focal length that is held, an error of it would go into the middle. A drive
+            # ahead cannot tell the one from the other.
             places = ("middle",)
         kinds += [CameraKind(lens, sharing, place) for place in places for lens in lenses]
     return kinds
