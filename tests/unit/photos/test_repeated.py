@@ -113,9 +113,19 @@ def test_photos_ahead_of_each_other_are_not_compared(steps_m: tuple[float, ...])
         return abs(steps_m[second - 1] - steps_m[first - 1]) > AHEAD * off
 
     pairs = close(*combinations((1, 2, 3, 4), 2))
+    apart = ((1, 3), (1, 4), (2, 3), (2, 4))
     assert different_places(moved, pairs, matched) == {
-        pair for pair in ((1, 3), (1, 4), (2, 3), (2, 4)) if not is_ahead(*pair)
+        pair for pair in apart if not is_ahead(*pair)
     }
+    # Around a building photos go to the side: there all that differ are told.
+    turned = poses.copy()
+    turned[:, :, :3] = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
+    turned[:, :, 3] = 0.0
+    turned[:, 0, 3] = np.array(steps_m)
+    around = replace(moved, cam_from_world=turned)
+    assert different_places(around, pairs, matched) == different_places(
+        replace(structure, cam_from_world=turned), pairs, matched
+    )
 
 
 def test_what_matches_between_different_places_is_there_twice() -> None:

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 import pycolmap
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from veduta.photos.cameras.folding import undistorts
 from veduta.photos.mapping.conflicts import GRID, ClosePair, cell_numbers
@@ -24,6 +25,10 @@ SAME_DEG = 2.0
 AHEAD = 0.035
 """Way along the view as a share of how far off that is, up to which they do: what `SAME_DEG` allows
 to the side. Who goes ahead sees all under small angles and, at the rim, other things."""
+ALONG = 0.9
+"""Cosine, in the middle of all photos, between the view and the way to the nearest other place from
+which on photos go ahead. Around a building that is folded they go to the side.
+"""
 STILL = 0.03
 """Share of the longer side of a photo by which what matches may move from one to the other in the
 middle: where it moves more they do not stand in one place, whatever the model says."""
@@ -58,10 +63,22 @@ def different_places(
         differing, telling = _compared(structure, rows, pair, matched, repeated)
         if differing >= max(FEWEST, DIFFERS * telling):
             found.append((pair, rows))
-    if not found:
-        return frozenset()
+    if not found or not _goes_ahead(structure):
+        return frozenset(pair for pair, _ in found)
     seen = _seen_points(structure, sorted({row for _, rows in found for row in rows}))
     return frozenset(pair for pair, rows in found if _ahead(structure, rows, seen) <= AHEAD)
+
+
+def _goes_ahead(structure: Structure) -> bool:
+    """Whether photos were taken on a way along their views, as from the front of a vehicle."""
+    centres, views = structure.centres(), structure.cam_from_world[:, 2, :3]
+    places, place = np.unique(centres, axis=0, return_inverse=True)
+    if len(places) < 2:
+        return False
+    nearest = np.asarray(cKDTree(places).query(places, k=2)[1])[:, 1]
+    way = places[nearest[place.ravel()]] - centres
+    along = np.abs((way * views).sum(axis=1)) / np.linalg.norm(way, axis=1)
+    return bool(np.median(along) >= ALONG)
 
 
 def _seen_points(structure: Structure, rows: Sequence[int]) -> dict[int, NDArray[np.int64]]:
