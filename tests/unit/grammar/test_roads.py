@@ -161,7 +161,7 @@ def test_a_lot_begins_at_its_street(tmp_path: Path) -> None:
     assert lot.attributes["streetWidth"] == 8.0
     assert lot.attributes["streetDistance"] == pytest.approx(8.0)
     assert lot.attributes["streetCorner"] is False
-    assert any("road lines" in note for note in lots.notes)
+    assert any("road line" in note for note in lots.notes)
 
 
 def test_roads_of_a_file_of_their_own_in_another_crs(tmp_path: Path) -> None:
