@@ -94,12 +94,13 @@ def find_walls(structure: Structure, options: WallOptions, seed: int) -> tuple[W
         SMALLEST * view.reach,
         NARROWEST_GAP * view.reach,
     )
-    candidates = _candidates(view, bounds, sights_of(structure, rng), rng)
+    places = places_of(structure, typical_reach(structure))
+    candidates = _candidates(view, bounds, sights_of(structure, places, rng), rng)
     candidates = _completed(view, _merged(view, candidates, bounds), bounds)
     walls = [_wall(view, candidate) for candidate in candidates]
     walls.sort(key=lambda wall: -len(wall.point_rows))
     walls = _without_relief(walls, RELIEF * view.reach)
-    walls = _without_hidden(walls, structure, RELIEF * view.reach)
+    walls = _without_hidden(walls, structure, places, RELIEF * view.reach)
     walls = with_closed_corners(walls, CORNER * view.reach)
     return _numbered(without_overshoot(walls, CORNER * view.reach))
 
@@ -311,11 +312,12 @@ def _without_relief(walls: list[Wall], deepest: float) -> list[Wall]:
     return kept
 
 
-def _without_hidden(walls: list[Wall], structure: Structure, thickness: float) -> list[Wall]:
+def _without_hidden(
+    walls: list[Wall], structure: Structure, places: NDArray[np.int64], thickness: float
+) -> list[Wall]:
     """Without what was taken for a wall behind a larger one, whose equal windows were taken for one
     another.
     """
-    places = places_of(structure)
     kept: list[Wall] = []
     for wall in walls:
         sure = float((places[wall.point_rows] >= SURE_PLACES).mean())

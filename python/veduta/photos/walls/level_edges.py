@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.imaging.segments import Segments
 from veduta.photos.cameras.vertical_edges import SegmentsOf, looked_at, rays_of
 from veduta.photos.structure import Structure
 from veduta.photos.walls.ends import with_closed_corners, without_overshoot
@@ -58,7 +59,8 @@ def turned_to_edges(
     unsure = [wall for wall in walls if wall.rms > rule.flat_rad * wall.width]
     if not unsure:
         return tuple(walls)
-    angles = {wall.id: _turns(wall, structure, segments_of, rule) for wall in unsure}
+    seen = [_seen(structure, row, segments_of(row)) for row in looked_at(structure)]
+    angles = {wall.id: _turns(wall, seen, rule) for wall in unsure}
     found = []
     for wall in walls:
         angle = angles.get(wall.id, 0.0)
@@ -70,9 +72,23 @@ def turned_to_edges(
     return tuple(without_overshoot(with_closed_corners(found, reach), reach))
 
 
-def _turns(wall: Wall, structure: Structure, segments_of: SegmentsOf, rule: LevelEdges) -> float:
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """The edges of a photo. eye: (3,). first, last: (n, 3) unit rays to their ends."""
+
+    eye: Floats
+    first: Floats
+    last: Floats
+
+
+def _seen(structure: Structure, row: int, segments: Segments) -> _Seen:
+    first, last = (rays_of(structure, row, end) for end in (segments.start, segments.end))
+    return _Seen(structure.centres()[row], first, last)
+
+
+def _turns(wall: Wall, seen: Sequence[_Seen], rule: LevelEdges) -> float:
     """How far a wall is to be turned, counter-clockwise from above (rad); 0: nothing tells."""
-    found = [*_edges(wall, structure, segments_of, rule)]
+    found = [*_edges(wall, seen, rule)]
     angles = np.concatenate([np.zeros(0), *(one for one, _ in found)])
     weights = np.concatenate([np.zeros(0), *(one for _, one in found)])
     near = np.abs(angles) <= rule.most_rad
@@ -91,31 +107,26 @@ def _turns(wall: Wall, structure: Structure, segments_of: SegmentsOf, rule: Leve
     return float(angles[np.clip(np.searchsorted(total, half) - 1, first, end - 1)])
 
 
-def _edges(
-    wall: Wall, structure: Structure, segments_of: SegmentsOf, rule: LevelEdges
-) -> Iterator[tuple[Floats, Floats]]:
+def _edges(wall: Wall, seen: Sequence[_Seen], rule: LevelEdges) -> Iterator[tuple[Floats, Floats]]:
     """Of each photo: the turns (rad) that level edges on the wall ask for, and their weights."""
-    centres = structure.centres()
     outward, along = np.append(wall.outward, 0.0), np.append(wall.along, 0.0)
     aside = np.array([-wall.along[1], wall.along[0], 0.0])
     foot = np.append(wall.start, 0.0)
-    for row in looked_at(structure):
-        before = float((centres[row] - foot) @ outward)
+    for photo in seen:
+        before = float((photo.eye - foot) @ outward)
         if before <= 0.0:
             continue
-        segments = segments_of(row)
-        first, last = (rays_of(structure, row, end) for end in (segments.start, segments.end))
         # Where both ends of each edge would be on the wall: along it, and up. NaN beside it.
         places = []
-        for ray in (first, last):
+        for ray in (photo.first, photo.last):
             into = -(ray @ outward)
-            place = centres[row] + (before / np.where(into > 1e-6, into, np.nan))[:, None] * ray
+            place = photo.eye + (before / np.where(into > 1e-6, into, np.nan))[:, None] * ray
             places.append(np.column_stack([(place - foot) @ along, place[:, 2]]))
         low, high = np.array([0.0, wall.bottom]), np.array([wall.width, wall.top])
         on = np.logical_and.reduce([((one > low) & (one < high)).all(axis=1) for one in places])
         across, up = np.abs(places[1] - places[0]).T
         on &= up < rule.slope * across
-        normal = np.cross(first[on], last[on])
+        normal = np.cross(photo.first[on], photo.last[on])
         span = np.linalg.norm(normal, axis=1)
         normal /= np.maximum(span, 1e-12)[:, None]
         # The direction in the horizontal plane that the edge's plane holds; at the eye's own

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from veduta.photos.structure import Structure
-from veduta.photos.walls.point_quality import typical_reach
 from veduta.photos.walls.wall import Wall
 
 MOST_RAYS = 200_000
@@ -32,12 +31,12 @@ class Sights:
     point: NDArray[np.float64]
 
 
-def sights_of(structure: Structure, rng: np.random.Generator) -> Sights:
+def sights_of(structure: Structure, places: NDArray[np.int64], rng: np.random.Generator) -> Sights:
     """The observations of a structure as lines of sight; of very many, some drawn at random.
 
-    Those of points that are seen from three places; of any where hardly a point is.
+    Those of points that are seen from three places; of any where hardly a point is. places: (p,) as
+    of `places_of`.
     """
-    places = places_of(structure)
     least = SURE_PLACES if (places >= SURE_PLACES).mean() >= SURE_SHARE else 0
     rows = np.flatnonzero(places[structure.point_of] >= least)
     if len(rows) > MOST_RAYS:
@@ -51,12 +50,11 @@ def _sights(structure: Structure, rows: NDArray[np.int64]) -> Sights:
     )
 
 
-def places_of(structure: Structure) -> NDArray[np.int64]:
-    """(p,) from how many places each point is seen."""
+def places_of(structure: Structure, reach: float) -> NDArray[np.int64]:
+    """(p,) from how many places each point is seen. reach: the typical distance of points."""
     centres = structure.centres()
     # The first photo within reach names the place.
-    reach = SAME_PLACE * typical_reach(structure)
-    near = cKDTree(centres).query_ball_point(centres, reach, return_sorted=True)
+    near = cKDTree(centres).query_ball_point(centres, SAME_PLACE * reach, return_sorted=True)
     place = np.array([np.atleast_1d(rows)[0] for rows in near])
     seen = np.unique(np.stack([structure.point_of, place[structure.image_of]]), axis=1)
     return np.bincount(seen[0], minlength=len(structure.points))
