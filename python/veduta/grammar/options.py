@@ -156,8 +156,11 @@ class GrammarOptions(Options):
 
     def with_seed(self, seed: int) -> GrammarOptions:
         """The same with another seed."""
-        return self.model_copy(update={"derive": self.derive.model_copy(update={"seed": seed})})
+        return self._deriving(seed=seed)
 
     def starting_with(self, start: str | None) -> GrammarOptions:
         """The same with another start rule."""
-        return self.model_copy(update={"derive": self.derive.model_copy(update={"start": start})})
+        return self._deriving(start=start)
+
+    def _deriving(self, **changed: int | str | None) -> GrammarOptions:
+        return self.model_copy(update={"derive": self.derive.model_copy(update=changed)})
