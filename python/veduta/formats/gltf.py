@@ -2,9 +2,10 @@
 
 glTF is y-up: (x, y, z) of the part becomes (x, z, -y) here and nowhere else. One primitive per
 material; faces have flat normals; no vertex is shared between features. The feature table is in
-`scenes[0].extras.veduta.features` as columns. Images are named by their digests. A
-texture's mask of invented pixels is an image of its own (PNG, white = invented) that the material
-names in `extras.veduta.invented_mask`; where all pixels are alike, `extras.veduta.invented` tells.
+`scenes[0].extras.veduta.features` as columns, and for other programs as `gltf_metadata` says.
+Images are named by their digests. A texture's mask of invented pixels is an image of its own (PNG,
+white = invented) that the material names in `extras.veduta.invented_mask`; where all pixels are
+alike, `extras.veduta.invented` tells.
 Meshes that stand many times are nodes of their own (`gltf_instances`), and so is what moves
 (`gltf_movers`), lamps and the sun (`gltf_lights`). Tours are cameras that move (`gltf_camera`).
 """
@@ -24,12 +25,15 @@ from veduta.formats.gltf_camera import add_camera
 from veduta.formats.gltf_instances import MOST_NODES, add_instances
 from veduta.formats.gltf_lights import add_lights, add_sun
 from veduta.formats.gltf_materials import CLAMP, REPEAT, GltfMaterials
+from veduta.formats.gltf_metadata import describe
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
 from veduta.place.camera_path import CameraPath
+from veduta.place.material import Material
 from veduta.place.mesh import Mesh
 from veduta.place.mover import Vector
 from veduta.place.part import Features, Part
+from veduta.place.semantics import SemanticClass
 from veduta.place.sunlight import Sunlight
 from veduta.run.atomic import write_bytes
 
@@ -50,10 +54,14 @@ def glb_bytes(
     tours: Sequence[CameraPath] = (),
     sun: Sunlight | None = None,
     most_nodes: int = MOST_NODES,
+    *,
+    alone: bool = True,
 ) -> bytes:
     """The part, the tours through it and the sun that shines on it, as a GLB file's content.
 
     most_nodes: more instances than that are written with EXT_mesh_gpu_instancing.
+    alone: with materials of each class and the table of `gltf_metadata`; not where it becomes a
+    piece of a file that has them for the whole.
     """
     binary = GltfBin()
     root: dict[str, Any] = {
@@ -75,10 +83,12 @@ def glb_bytes(
         "meshes": [],
         "materials": [],
     }
+    own = part.features.class_code
+    classes = own if alone else np.zeros_like(own)
     materials = GltfMaterials(root, part.materials, lambda row: _wrap(part, row), binary)
 
     def primitives_of(chosen: NDArray[np.bool_], about_m: Vector) -> list[dict[str, Any]]:
-        return _primitives(part, chosen, about_m, materials, binary)
+        return _primitives(part, classes, chosen, about_m, materials, binary)
 
     still = _still(part)
     if still.any():
@@ -89,9 +99,15 @@ def glb_bytes(
     if sun is not None:
         add_sun(root, sun)
     if part.instances is not None:
-        add_instances(root, part.instances, materials.number, binary, most_nodes)
+
+        def material_of(row: int, feature: int) -> int:
+            return materials.number(row, int(classes[feature]))
+
+        add_instances(root, part.instances, material_of, binary, most_nodes)
     for tour in tours:
         add_camera(root, tour, binary)
+    if alone:
+        describe(root, part.id, part.features, part.feature_area_m2, binary)
     root["bufferViews"] = binary.views
     root["accessors"] = binary.accessors
     binary.content.extend(b"\0" * (-len(binary.content) % 4))
@@ -135,39 +151,56 @@ def _still(part: Part) -> NDArray[np.bool_]:
 
 def _primitives(
     part: Part,
+    classes: NDArray[np.uint8],
     chosen_polygons: NDArray[np.bool_],
     about_m: Vector,
     materials: GltfMaterials,
     binary: GltfBin,
 ) -> list[dict[str, Any]]:
-    """One primitive for each material that the chosen polygons have; corners are about a point."""
+    """One primitive for each material and class of the chosen polygons; corners about a point."""
     triangles = part.triangles
     places = part.positions_m - np.array(about_m, dtype=np.float32)
     is_chosen = chosen_polygons[triangles.polygon]
     normal = _vertex_normals(part)
     feature = _vertex_features(part)
-    material_of_triangle = part.polygon_material[triangles.polygon]
+    material_of = part.polygon_material[triangles.polygon]
+    class_of = classes[part.polygon_feature[triangles.polygon]]
     primitives: list[dict[str, Any]] = []
-    for number, material in enumerate(part.materials):
-        chosen = triangles.indices[is_chosen & (material_of_triangle == number)]
-        if len(chosen) == 0:
-            continue
+    for number, code in looks(material_of[is_chosen], class_of[is_chosen], part.materials):
+        chosen = triangles.indices[is_chosen & (material_of == number) & (class_of == code)]
         used, indices = np.unique(chosen, return_inverse=True)
         attributes = {
             "POSITION": binary.add_array(y_up(places[used]), "VEC3", bounds=True),
             "NORMAL": binary.add_array(y_up(normal[used]), "VEC3"),
             "_FEATURE_ID_0": binary.add_array(feature[used], "SCALAR"),
         }
-        if material.texture is not None:
+        if part.materials[number].texture is not None:
             attributes["TEXCOORD_0"] = binary.add_array(part.uv[used], "VEC2")
         primitives.append(
             {
                 "attributes": attributes,
                 "indices": binary.add_array(indices.reshape(-1).astype(np.uint32), "SCALAR"),
-                "material": materials.number(number),
+                "material": materials.number(number, code),
             }
         )
     return primitives
+
+
+def looks(
+    material: NDArray[np.int32], semantic: NDArray[np.uint8], materials: Sequence[Material]
+) -> list[tuple[int, int]]:
+    """The pairs of material and class that there are; the class that a material is named after is
+    the first of its own.
+    """
+    found = np.unique(np.column_stack([material, semantic]).astype(np.int64), axis=0)
+    return sorted(
+        ((number, code) for number, code in found.tolist()),
+        key=lambda look: (
+            look[0],
+            SemanticClass.of_code(look[1]).value != materials[look[0]].name,
+            look[1],
+        ),
+    )
 
 
 def _polygon_of_vertex(part: Part) -> NDArray[np.int64]:

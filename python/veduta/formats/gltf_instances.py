@@ -33,19 +33,23 @@ GLTF_FROM_PART = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 def add_instances(
     root: dict[str, Any],
     instances: Instances,
-    material_of: Callable[[int], int],
+    material_of: Callable[[int, int], int],
     binary: GltfBin,
     most_nodes: int,
 ) -> None:
-    """Adds nodes and meshes; `material_of` gives the number in the file of a part's material."""
+    """Adds nodes and meshes.
+
+    material_of: the number in the file of a part's material, as a feature has it.
+    """
     as_nodes = len(instances) <= most_nodes
     vertices = [_vertices(mesh, binary) for mesh in instances.meshes]
     for group in instances.groups:
         if len(group.feature) == 0:
             continue
         mesh, (attributes, indices) = instances.meshes[group.mesh], vertices[group.mesh]
+        first = int(group.feature[0])
         primitives = [
-            {"attributes": attributes, "indices": accessor, "material": material_of(row)}
+            {"attributes": attributes, "indices": accessor, "material": material_of(row, first)}
             for row, accessor in zip(group.materials, indices, strict=True)
             if accessor is not None
         ]

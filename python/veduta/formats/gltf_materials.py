@@ -1,7 +1,13 @@
-"""Materials of a glTF file: colours, textures once each, and the masks of invented pixels."""
+"""Materials of a glTF file: colours, textures once each, and the masks of invented pixels.
+
+Each class of surface has materials of its own. Where several classes look alike, those after the
+first have a material that differs by its name (`roof.wall`, say), and
+`extras.veduta.looks_like` is the number of the first one's.
+"""
 
 from __future__ import annotations
 
+import copy
 import hashlib
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -12,16 +18,18 @@ import numpy as np
 from veduta.formats.gltf_bin import GltfBin
 from veduta.imaging.encode import jpeg_bytes, mask_bytes, png_bytes
 from veduta.place.material import Material, Texture
+from veduta.place.semantics import SemanticClass
 
 JPEG_QUALITY = 90
 UNLIT = "KHR_materials_unlit"
+LOOKS_LIKE = "looks_like"
 DIGEST = "sha256-"
 CLAMP, REPEAT = 33071, 10497
 _LINEAR, _LINEAR_MIPMAP_LINEAR = 9729, 9987
 
 
 class GltfMaterials:
-    """The materials of the file: those of the part that are used, in the order of use.
+    """The materials of the file: those of the part that are used, by class, in the order of use.
 
     wrap_of: how the texture of a material goes on beside its borders (`CLAMP`, `REPEAT`).
     """
@@ -34,16 +42,26 @@ class GltfMaterials:
         binary: GltfBin,
     ) -> None:
         self._root, self._all, self._wrap_of, self._binary = root, materials, wrap_of, binary
-        self._number_of: dict[int, int] = {}
+        self._number_of: dict[tuple[int, int], int] = {}
+        self._first_of: dict[int, int] = {}
         self._images: dict[Texture, tuple[int, dict[str, Any]]] = {}
 
-    def number(self, row: int) -> int:
-        """The number in the file of a material of the part."""
-        if row not in self._number_of:
-            entry = self._entry(row)
-            self._number_of[row] = len(self._number_of)
+    def number(self, row: int, code: int) -> int:
+        """The number in the file of a material of the part, as surfaces of a class have it."""
+        if (row, code) not in self._number_of:
+            entry = self._entry(row) if row not in self._first_of else self._alike(row, code)
+            number = self._number_of[row, code] = len(self._number_of)
+            self._first_of.setdefault(row, number)
             self._root["materials"].append(entry)
-        return self._number_of[row]
+        return self._number_of[row, code]
+
+    def _alike(self, row: int, code: int) -> dict[str, Any]:
+        """What is there already, in another class's name."""
+        first = self._first_of[row]
+        entry = copy.deepcopy(self._root["materials"][first])
+        entry["name"] = f"{SemanticClass.of_code(code).value}.{entry['name']}"
+        entry.setdefault("extras", {}).setdefault("veduta", {})[LOOKS_LIKE] = first
+        return dict(entry)
 
     def _entry(self, row: int) -> dict[str, Any]:
         material = self._all[row]

@@ -19,6 +19,8 @@ from veduta.place.part import NO_PARENT, Features
 from veduta.place.semantics import Provenance, SemanticClass
 
 METADATA, MESH_FEATURES = "EXT_structural_metadata", "EXT_mesh_features"
+INSTANCE_FEATURES = "EXT_instance_features"
+FEATURE_ROW = "_FEATURE_ID_0"
 _ALIGNED = 8
 _UNKNOWN = -1.0
 """A length or an area that is not known."""
@@ -87,6 +89,34 @@ def property_table(
             "area_m2": {"values": _view(_sizes(area_m2), binary)},
         },
     }
+
+
+def describe(
+    root: dict[str, Any],
+    part_id: str,
+    features: Features,
+    area_m2: NDArray[np.float64],
+    binary: GltfBin,
+) -> None:
+    """Tell other programs what the vertices and the instances of a part's document are.
+
+    The table goes behind the geometry. What stands many times as plain nodes has its row in their
+    extras: the extension has no word for a node.
+    """
+    if len(features) == 0:
+        return
+    told = feature_ids(len(features), 0)
+    primitives = [piece for mesh in root["meshes"] for piece in mesh["primitives"]]
+    described = [piece for piece in primitives if FEATURE_ROW in piece["attributes"]]
+    for piece in described:
+        piece.setdefault("extensions", {})[MESH_FEATURES] = told
+    for node in root["nodes"]:
+        if INSTANCE_FEATURES in node.get("extensions", {}):
+            node["extensions"][INSTANCE_FEATURES] = told
+    table = property_table(part_id, features, area_m2, binary)
+    root.setdefault("extensions", {})[METADATA] = {"schema": schema(), "propertyTables": [table]}
+    used = root.setdefault("extensionsUsed", [])
+    used += [METADATA, MESH_FEATURES] if described else [METADATA]
 
 
 def feature_ids(count: int, table: int) -> dict[str, Any]:

@@ -17,6 +17,7 @@ from PIL import Image
 
 from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
 from veduta.formats.gltf_instances import INSTANCING, part_placement
+from veduta.formats.gltf_materials import LOOKS_LIKE
 from veduta.formats.gltf_movers_read import mover_nodes, pivot_of, read_mover
 from veduta.place.instances import InstanceGroup, Instances, SharedMesh
 from veduta.place.material import Colour, Material, Texture
@@ -49,6 +50,7 @@ def part_of(glb: Glb) -> Part:
     still = np.zeros(3, dtype=np.float32)
     pieces = [(primitive, still) for primitive in own]
     first = sum(_triangle_count(glb, primitive) for primitive in own)
+    looks, row_of = looks_of(glb)
     for number, node in mover_nodes(glb):
         primitives = glb.root["meshes"][node["mesh"]]["primitives"]
         pieces += [(primitive, pivot_of(glb, number)) for primitive in primitives]
@@ -64,7 +66,8 @@ def part_of(glb: Glb) -> Part:
         seen = glb.array(attributes["TEXCOORD_0"]) if "TEXCOORD_0" in attributes else flat
         uv.append(seen[corners])
         features.append(glb.array(attributes["_FEATURE_ID_0"])[corners][::3].astype(np.int32))
-        materials.append(np.full(len(corners) // 3, primitive["material"], dtype=np.int32))
+        row = row_of[primitive["material"]]
+        materials.append(np.full(len(corners) // 3, row, dtype=np.int32))
     count = sum(len(rows) for rows in features)
     table = features_of(extras["features"])
     feature = np.concatenate(features)
@@ -79,10 +82,10 @@ def part_of(glb: Glb) -> Part:
         polygon_feature=feature,
         polygon_material=np.concatenate(materials),
         features=table,
-        materials=tuple(material_of(glb, entry) for entry in glb.root["materials"]),
+        materials=looks,
         attributes=dict(extras.get("attributes", {})),
         notes=tuple(extras.get("notes", ())),
-        instances=_instances(glb, len(table)),
+        instances=_instances(glb, len(table), row_of),
         movers=tuple(read_mover(glb, number, np.arange(a, b)) for number, a, b in moving),
     )
 
@@ -91,7 +94,7 @@ def _triangle_count(glb: Glb, primitive: dict[str, Any]) -> int:
     return int(glb.root["accessors"][primitive["indices"]]["count"]) // 3
 
 
-def _instances(glb: Glb, features: int) -> Instances | None:
+def _instances(glb: Glb, features: int, row_of: list[int]) -> Instances | None:
     """What stands many times; None where there is nothing."""
     found = list(_groups(glb))
     if not found:
@@ -106,7 +109,7 @@ def _instances(glb: Glb, features: int) -> Instances | None:
         groups.append(
             InstanceGroup(
                 mesh=names.index(mesh["name"]),
-                materials=tuple(primitive["material"] for primitive in mesh["primitives"]),
+                materials=tuple(row_of[piece["material"]] for piece in mesh["primitives"]),
                 part_from_mesh=part_placement(*place),
                 feature=feature,
             )
@@ -142,7 +145,7 @@ def _shared_mesh(glb: Glb, mesh: dict[str, Any]) -> SharedMesh:
     corners = [glb.array(primitive["indices"]).reshape(-1, 3) for primitive in primitives]
     if max(int(own.max()) for own in corners) >= len(positions):
         raise ValueError(f"mesh {mesh['name']} has triangles without points")
-    slots = [glb.root["materials"][primitive["material"]]["name"] for primitive in primitives]
+    slots = [_plain(glb, primitive["material"])["name"] for primitive in primitives]
     return SharedMesh(
         name=mesh["name"],
         positions_m=_z_up(positions),
@@ -183,6 +186,28 @@ def features_of(columns: dict[str, list[Any]]) -> Features:
 
 def _sizes(column: list[float | None]) -> NDArray[np.float64]:
     return np.array([np.nan if value is None else value for value in column], dtype=np.float64)
+
+
+def looks_of(glb: Glb) -> tuple[tuple[Material, ...], list[int]]:
+    """The materials, and the row in them of each in the file: classes that look alike share one."""
+    entries = glb.root["materials"]
+    plain = [_plain(glb, number) for number in range(len(entries))]
+    rows = [number for number, entry in enumerate(entries) if entry is plain[number]]
+    at = {id(entries[number]): row for row, number in enumerate(rows)}
+    found = tuple(material_of(glb, entries[number]) for number in rows)
+    return found, [at[id(entry)] for entry in plain]
+
+
+def _plain(glb: Glb, number: int) -> dict[str, Any]:
+    """What tells the look of a material: itself, or the one that it looks like."""
+    entry: dict[str, Any] = glb.root["materials"][number]
+    like = entry.get("extras", {}).get("veduta", {}).get(LOOKS_LIKE)
+    if like is None:
+        return entry
+    first: dict[str, Any] = glb.root["materials"][like]
+    if LOOKS_LIKE in first.get("extras", {}).get("veduta", {}):
+        raise ValueError(f"material {number} looks like one that looks like another")
+    return first
 
 
 def material_of(glb: Glb, entry: dict[str, Any]) -> Material:

@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.formats.gltf import feature_columns
+from veduta.formats.gltf import feature_columns, looks
 from veduta.formats.gltf_bin import GltfBin, glb_container, y_up
 from veduta.formats.gltf_materials import CLAMP, REPEAT, GltfMaterials
+from veduta.formats.gltf_metadata import describe
 from veduta.formats.gltf_rig import rig_for_others
 from veduta.imaging.srgb import linear_of_srgb
 from veduta.place.mesh import Mesh
@@ -39,10 +40,11 @@ def write_mesh_glb(mesh: Mesh, path: Path, *, rigged: bool = False) -> None:
     write_bytes(path, mesh_glb_bytes(mesh, rigged=rigged))
 
 
-def mesh_glb_bytes(mesh: Mesh, *, rigged: bool = False) -> bytes:
+def mesh_glb_bytes(mesh: Mesh, *, rigged: bool = False, alone: bool = True) -> bytes:
     """The content of a GLB file of the mesh.
 
     rigged: for other programs, as `formats.gltf_rig` says; Veduta does not read that back.
+    alone: as that of `gltf.glb_bytes`.
     """
     binary = GltfBin()
     told = {
@@ -61,9 +63,17 @@ def mesh_glb_bytes(mesh: Mesh, *, rigged: bool = False) -> bytes:
         "materials": [],
     }
     materials = GltfMaterials(root, mesh.materials, lambda row: _wrap(mesh, row), binary)
-    numbers = [materials.number(row) for row in range(len(mesh.materials))]
+    own = mesh.features.class_code if alone else np.zeros_like(mesh.features.class_code)
+    classes = own[mesh.triangle_feature]
+    used = looks(mesh.triangle_material, classes, mesh.materials)
+    for row in range(len(mesh.materials)):  # also what nothing has: a reader expects it
+        materials.number(row, next((code for number, code in used if number == row), 0))
     _add_pictures(root, mesh)
-    shape: dict[str, Any] = {"primitives": _primitives(mesh, numbers, binary)}
+    primitives = [
+        _primitive(mesh, row, classes == code, materials.number(row, code), binary)
+        for row, code in used
+    ]
+    shape: dict[str, Any] = {"primitives": primitives}
     if mesh.morphs:
         shape["weights"] = [0.0] * len(mesh.morphs)
         shape["extras"] = {"targetNames": [morph.name for morph in mesh.morphs]}
@@ -74,6 +84,8 @@ def mesh_glb_bytes(mesh: Mesh, *, rigged: bool = False) -> bytes:
             _add_clip(root, mesh.skin, clip, binary)
     if rigged and mesh.skin is not None:
         rig_for_others(root, mesh, binary)
+    if alone:
+        describe(root, mesh.id, mesh.features, mesh.feature_area_m2, binary)
     root["bufferViews"] = binary.views
     root["accessors"] = binary.accessors
     binary.content.extend(b"\0" * (-len(binary.content) % 4))
@@ -104,26 +116,21 @@ def _add_pictures(root: dict[str, Any], mesh: Mesh) -> None:
         root[kind] = [*root.get(kind, []), WEBP]
 
 
-def _primitives(mesh: Mesh, numbers: list[int], binary: GltfBin) -> list[dict[str, Any]]:
-    """One for each material; a vertex that several features share is written once for each."""
-    primitives = []
+def _primitive(
+    mesh: Mesh, row: int, of_class: NDArray[np.bool_], number: int, binary: GltfBin
+) -> dict[str, Any]:
+    """What has a material and a class; a vertex of several features is written once for each."""
     rows = max(1, len(mesh.features))
-    for row in range(len(mesh.materials)):
-        chosen = mesh.triangle_material == row
-        if not chosen.any():
-            continue
-        corner = mesh.triangles[chosen].reshape(-1).astype(np.int64)
-        feature = np.repeat(mesh.triangle_feature[chosen], 3).astype(np.int64)
-        keys, indices = np.unique(corner * rows + feature, return_inverse=True)
-        primitives.append(
-            {
-                "attributes": _attributes(mesh, keys // rows, keys % rows, binary),
-                "indices": binary.add_array(indices.reshape(-1).astype(np.uint32), "SCALAR"),
-                "material": numbers[row],
-                **_targets(mesh, keys // rows, binary),
-            }
-        )
-    return primitives
+    chosen = of_class & (mesh.triangle_material == row)
+    corner = mesh.triangles[chosen].reshape(-1).astype(np.int64)
+    feature = np.repeat(mesh.triangle_feature[chosen], 3).astype(np.int64)
+    keys, indices = np.unique(corner * rows + feature, return_inverse=True)
+    return {
+        "attributes": _attributes(mesh, keys // rows, keys % rows, binary),
+        "indices": binary.add_array(indices.reshape(-1).astype(np.uint32), "SCALAR"),
+        "material": number,
+        **_targets(mesh, keys // rows, binary),
+    }
 
 
 def _attributes(

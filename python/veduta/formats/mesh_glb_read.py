@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
-from veduta.formats.gltf_read import features_of, material_of, part_of
+from veduta.formats.gltf_read import features_of, looks_of, part_of
 from veduta.formats.mesh_glb import Y_UP
 from veduta.imaging.srgb import srgb_of_linear
 from veduta.place.mesh import Mesh
@@ -44,8 +44,9 @@ def _mesh(glb: Glb) -> Mesh:
     triangles = np.concatenate(
         [own.astype(np.int64) + start for own, start in zip(corners, starts[:-1], strict=True)]
     ).reshape(-1, 3)
+    looks, row_of = looks_of(glb)
     material = np.repeat(
-        [primitive["material"] for primitive in shape["primitives"]],
+        [row_of[primitive["material"]] for primitive in shape["primitives"]],
         [len(own) // 3 for own in corners],
     )
     skin = _skin(glb, joined)
@@ -54,7 +55,7 @@ def _mesh(glb: Glb) -> Mesh:
         positions_m=joined["POSITION"],
         triangles=triangles.astype(np.uint32),
         features=features_of(told["features"]),
-        materials=tuple(material_of(glb, entry) for entry in glb.root["materials"]),
+        materials=looks,
         triangle_feature=joined["_FEATURE_ID_0"][triangles[:, 0]].astype(np.int32),
         triangle_material=material.astype(np.int32),
         normals=joined["NORMAL"],

@@ -49,13 +49,15 @@ class _Chunk:
 
 def part_tile(part: Part, name: str) -> bytes:
     """The GLB. name: of the thing that all of it belongs to. Lamps are no lights there."""
-    glb = glb_bytes(replace(part, lamps=(), notes=()), most_nodes=0)
+    glb = glb_bytes(replace(part, lamps=(), notes=()), most_nodes=0, alone=False)
     return _with_tables(glb, part.features, BuildingRow(part.id, name))
 
 
 def mesh_tile(mesh: Mesh, name: str) -> bytes:
     """The GLB of a mesh. name: as that of `part_tile`."""
-    return _with_tables(mesh_glb_bytes(mesh), mesh.features, BuildingRow(mesh.id, name))
+    return _with_tables(
+        mesh_glb_bytes(mesh, alone=False), mesh.features, BuildingRow(mesh.id, name)
+    )
 
 
 def _with_tables(glb: bytes, features: Features, row: BuildingRow) -> bytes:

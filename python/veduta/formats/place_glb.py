@@ -71,8 +71,10 @@ def place_glb_bytes(place: Place) -> bytes:
 def _add_part(
     joined: JoinedGltf, placed: PlacedPart, content: Part | Mesh, tables: list[dict[str, Any]]
 ) -> None:
-    data = mesh_glb_bytes(content) if isinstance(content, Mesh) else glb_bytes(content)
-    root, chunk = _opened(data)
+    if isinstance(content, Mesh):
+        root, chunk = _opened(mesh_glb_bytes(content, alone=False))
+    else:
+        root, chunk = _opened(glb_bytes(content, alone=False))
     told = root["scenes"][0].get("extras", {}).get("veduta", {})
     standing = placed.standing
     node: dict[str, Any] = {
