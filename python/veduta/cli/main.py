@@ -21,7 +21,14 @@ from typing import NoReturn
 import veduta
 from veduta.cli.plain_words import plain_words
 from veduta.cli.streams import drop_output, outlive_readers
-from veduta.run.errors import NO_ROOM, InputError, NotFoundError, UnfinishedError, VedutaError
+from veduta.run.errors import (
+    NO_ROOM,
+    InputError,
+    NotFoundError,
+    UnfinishedError,
+    UnwritableError,
+    VedutaError,
+)
 from veduta.run.names import printable
 from veduta.run.quiet import quiet_libraries
 from veduta.run.threads import same_sums_anywhere
@@ -107,7 +114,7 @@ def _printed(text: str, code: int) -> int:
 
 def _no_room(error: OSError) -> int:
     drop_output()
-    _say(f"error: the output: cannot be written ({error.strerror}). Make room for it.")
+    _say(f"error: {UnwritableError.of(error)}")
     return BAD_USE
 
 

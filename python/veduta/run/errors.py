@@ -34,6 +34,15 @@ class InputError(VedutaError):
 class UnwritableError(InputError):
     """The system refuses to write the results: a full disk, a quota, permissions."""
 
+    @classmethod
+    def of(
+        cls, error: OSError, subject: str | Path = "the output", then: str = ""
+    ) -> UnwritableError:
+        """What the system said, and what to do. then: what else is to be known of that place."""
+        cure = "Make room there" if error.errno in NO_ROOM else "Mend that"
+        fault = f"cannot be written ({error.strerror or error})"
+        return cls(subject, fault, f"{cure}{then}.")
+
 
 class NotFoundError(VedutaError):
     """The record is readable, but what the step looks for is not in it.

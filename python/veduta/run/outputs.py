@@ -31,7 +31,7 @@ from pydantic import JsonValue
 
 from veduta.run.atomic import drop_halves, sync_folder, sync_tree
 from veduta.run.digests import file_digest
-from veduta.run.errors import NO_ROOM, InputError, UnwritableError
+from veduta.run.errors import InputError, UnwritableError
 from veduta.run.record import CALL, JOURNAL, PRIVATE, RECORD, Change, Item, RunRecord, load_record
 from veduta.run.report import Failure
 
@@ -234,12 +234,8 @@ def writing_to(out: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        cure = "Make room there" if error.errno in NO_ROOM else "Mend that"
-        raise UnwritableError(
-            out,
-            f"cannot be written ({error.strerror or error})",
-            f"{cure}: what is finished is on disk, and the same command goes on from there.",
-        ) from error
+        then = ": what is finished is on disk, and the same command goes on from there"
+        raise UnwritableError.of(error, out, then) from error
 
 
 def _remove_bare(out: OutFolder, *, made: bool) -> None:

@@ -134,8 +134,7 @@ def attempt(function: Callable[[Any], Any], argument: Any) -> Answer:
     except OSError as error:
         if error.errno not in NO_ROOM:
             return Answer(traceback=traceback.format_exc())
-        fault = f"cannot be written ({error.strerror})"
-        return Answer(error=UnwritableError("the output", fault, "Make room for it."))
+        return Answer(error=UnwritableError.of(error))
     except Exception:  # noqa: BLE001  a task's bug is the outcome; the caller tells it
         return Answer(traceback=traceback.format_exc())
 

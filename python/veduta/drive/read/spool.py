@@ -50,7 +50,8 @@ class SpooledScans:
                     times.append(time_column(path, rows))
             except (pyarrow.ArrowException, OSError) as error:
                 if isinstance(error, OSError) and error.errno in NO_ROOM:
-                    raise _no_room(error) from error
+                    then = ": scans are kept in it while they are read (TMPDIR names another)"
+                    raise UnwritableError.of(error, tempfile.gettempdir(), then) from error
                 fault = "is a Parquet table that breaks off"
                 raise InputError(path, fault, "Copy it again.") from error
         if not times or not self.beams or not len(np.concatenate(times)):
@@ -67,9 +68,3 @@ class SpooledScans:
         """The ranges of each scan, by their times."""
         for row in self.order.tolist():
             yield self.ranges(row)
-
-
-def _no_room(error: OSError) -> UnwritableError:
-    fault = f"cannot be written ({error.strerror})"
-    remedy = "Make room there: scans are kept in it while they are read (TMPDIR names another)."
-    return UnwritableError(tempfile.gettempdir(), fault, remedy)
