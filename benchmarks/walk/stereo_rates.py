@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from record import Row, keep_or_print
 from walk_sets import DATA
 
+from veduta.cameras.rigs.kitti import read_kitti
+from veduta.cameras.rigs.middlebury import read_middlebury
 from veduta.imaging.read import read_image
 from veduta.walk.build.stereo import StereoSettings, match_stereo
-from veduta.walk.read.calib_kitti import read_kitti
-from veduta.walk.read.calib_middlebury import read_middlebury
 from veduta.walk.read.pairs import make_rectifier
 from veduta.walk.rig import Image, Rig
 

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from record import Row, keep_or_print
 from walk_sets import DATA
 
+from veduta.cameras.rigs import find_calibration
 from veduta.walk.build.local_model import LocalModel, build_local_model
 from veduta.walk.build.moving import find_moving
-from veduta.walk.read.calibration import find_calibration
 from veduta.walk.read.layout import find_pairs
 from veduta.walk.read.pairs import make_rectifier, read_pair, read_stereo
 

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.cameras.rigs import find_calibration
 from veduta.walk.build.local_model import LocalModel, build_local_model
-from veduta.walk.read.calibration import find_calibration
 from veduta.walk.read.layout import find_pairs
 from veduta.walk.read.pairs import Rectifier, make_rectifier, read_pair, read_stereo
 from veduta.walk.rig import PairFiles, Rig

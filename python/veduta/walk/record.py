@@ -9,15 +9,15 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.cameras.rigs import RigCalibration, find_calibration
 from veduta.run.errors import InputError
 from veduta.run.work import Work
 from veduta.walk.build.place import world_from_first
 from veduta.walk.keys import KeyModel, picture_of, read_key, views_by_key
 from veduta.walk.options import TakeOptions
-from veduta.walk.read.calibration import find_calibration
 from veduta.walk.read.layout import find_pairs
 from veduta.walk.read.pairs import Rectifier, make_rectifier, read_pair
-from veduta.walk.rig import Image, PairFiles, Rig, RigCalibration
+from veduta.walk.rig import Image, PairFiles, Rig
 
 Matrix = NDArray[np.float64]
 

@@ -14,6 +14,7 @@ from known_structure import known_structure
 
 from veduta.cameras import read_cameras
 from veduta.cameras.readers.kitti import read_calibration
+from veduta.cameras.rigs import find_calibration
 from veduta.drive.document.log import Bag
 from veduta.drive.read.bag import unpack_in_limits
 from veduta.drive.read.own import read_toml
@@ -22,7 +23,6 @@ from veduta.grammar.lots import read_lots
 from veduta.photos.intake.video import look_through, video_of
 from veduta.photos.structure import model_of
 from veduta.plan.pages import find_drawings, read_drawing
-from veduta.walk.read.calibration import find_calibration
 
 Kind = tuple[Callable[[Path], Path], Callable[[Path], object]]
 _DRIVE = """name = "street"

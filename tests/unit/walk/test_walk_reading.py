@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from veduta.cameras.rigs import find_calibration
 from veduta.run.errors import InputError
-from veduta.walk.read.calibration import find_calibration
 from veduta.walk.read.layout import find_pairs
 from veduta.walk.read.pairs import make_rectifier, read_pair
 

@@ -10,11 +10,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.cameras.rigs import RigCalibration
 from veduta.run.errors import InputError
 from veduta.walk.options import BoardOptions
 from veduta.walk.read.layout import find_pairs
 from veduta.walk.read.pairs import read_pair
-from veduta.walk.rig import Image, RigCalibration
+from veduta.walk.rig import Image
 
 Corners = NDArray[np.float32]
 _CENTRE = 0.5

@@ -8,9 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.cameras.rigs import RigCalibration
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
-from veduta.walk.rig import Image, PairFiles, Rig, RigCalibration, StereoPair
+from veduta.walk.rig import Image, PairFiles, Rig, StereoPair
 
 _AGAIN = "Calibrate the two cameras again: lens or rotation are far from any camera's."
 

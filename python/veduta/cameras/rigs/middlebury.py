@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.cameras.rigs.calibration import RigCalibration
 from veduta.run.errors import InputError
-from veduta.walk.rig import RigCalibration
 
 _REMEDY = "Give Middlebury's own calib.txt, with cam0, cam1 and baseline (mm), or another form."
 _CENTRE = 0.5

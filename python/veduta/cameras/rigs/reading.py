@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
+from veduta.cameras.rigs.calibration import RigCalibration
+from veduta.cameras.rigs.kitti import read_kitti, says_kitti
+from veduta.cameras.rigs.middlebury import read_middlebury
+from veduta.cameras.rigs.opencv import read_opencv
+from veduta.cameras.rigs.toml import TOML, read_toml
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
-from veduta.walk.read.calib_kitti import read_kitti, says_kitti
-from veduta.walk.read.calib_middlebury import read_middlebury
-from veduta.walk.read.calib_opencv import read_opencv
-from veduta.walk.read.calib_toml import TOML, read_toml
-from veduta.walk.rig import RigCalibration
 
 CALIB = "calib.txt"
 YAML = (".yml", ".yaml")

@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.cameras.rigs.calibration import RigCalibration
 from veduta.run.errors import InputError
-from veduta.walk.rig import RigCalibration
 
 _NAMES = {
     "left": ("M1", "K1", "cameraMatrix1", "camera_matrix_left"),

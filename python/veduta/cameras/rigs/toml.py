@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from veduta.cameras.rigs.calibration import RigCalibration
 from veduta.run.errors import InputError
-from veduta.walk.rig import RigCalibration
 
 TOML = "walk.toml"
 _REMEDY = "Write focal_px, centre_px and baseline_m of a rectified rig."

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from veduta.cameras.readers.kitti import calibration_rows, projections
+from veduta.cameras.rigs.calibration import RigCalibration
 from veduta.run.errors import InputError
-from veduta.walk.rig import RigCalibration
 
 _REMEDY = "Give KITTI's own file: twelve numbers for each camera, P0: to P3: or two bare rows."
 CENTRE = 0.5
