@@ -17,6 +17,7 @@ from veduta.plan.remarks import closed_in, plans_apart
 from veduta.plan.scale.estimate import scale_notes
 from veduta.plan.tour.find import Tour
 from veduta.plan.upper_floor import upper_floor_doubts
+from veduta.plan.whole import parts_only
 from veduta.run.report import counted
 
 _SHOWN = 5
@@ -27,11 +28,12 @@ UNLIKE_STOREYS = 0.7
 
 
 def doubts(document: PlanDocument, tour: Tour | None, spaces: Sequence[Space] = ()) -> list[str]:
-    """One sentence each: how the sheet lay, scale, rooms, storeys, stairs, and what the tour leaves
-    out. `spaces` are the storeys as they are built, which know their stairs.
+    """One sentence each: whether it is a whole house, how the sheet lay, scale, rooms, storeys,
+    stairs, and what the tour leaves out. `spaces` are the storeys as they are built, which know
+    their stairs.
     """
     several = len(document.storeys) > 1
-    said = []
+    said = parts_only(document, tour)
     for storey in document.storeys:
         of = f"{storey.name}: " if several else ""
         notes = (

@@ -290,7 +290,8 @@ def _make(
             if stays:
                 keep_panorama(read, opened.path, work)
             step.rejected.extend(write_result(result, building, work, built))
-        report, page = plan_report(result, call.subject, used, steps, notes)
+        doubtful = doubts(result.document, result.tour, result.house.spaces)
+        report, page = plan_report(result, call.subject, used, steps, notes, doubtful)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())
             (work / "report.html").write_bytes(page)
@@ -299,7 +300,7 @@ def _make(
             **measures(result.document),
             MADE_FROM: made_from,
             OTHERWISE: otherwise,
-            DOUBTS: [*doubts(result.document, result.tour, result.house.spaces)],
+            DOUBTS: [*doubtful],
         }
         opened.publish(CALL, key, work, summary)
     if opened.standing is not Standing.AMENDED:

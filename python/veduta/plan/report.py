@@ -101,13 +101,20 @@ def _openings_found(found: dict[str, Any], kind: str) -> str:
 
 
 def plan_report(
-    result: Result, subject: str, options: Options, steps: list[StepRecord], notes: Sequence[str]
+    result: Result,
+    subject: str,
+    options: Options,
+    steps: list[StepRecord],
+    notes: Sequence[str],
+    doubts: Sequence[str] = (),
 ) -> tuple[Report, bytes]:
     """The report of a plan that became a house, and its page."""
     document, part = result.document, result.house.part
     storey_notes = [f"{s.name}: {note}" for s in document.storeys for note in s.notes]
     tour_notes = () if result.tour is None else result.tour.notes
-    said = dict.fromkeys([*notes, *document.notes, *storey_notes, *part.notes, *tour_notes])
+    said = dict.fromkeys(
+        [*doubts, *notes, *document.notes, *storey_notes, *part.notes, *tour_notes]
+    )
     found = measures(document)
     report = Report(
         verb="plan",
@@ -122,6 +129,7 @@ def plan_report(
         title=subject,
         summary=summary_line(found),
         facts=_facts(result, found),
+        doubts=doubts,
         pictures=_pictures(result),
         tables=[
             *(_rooms(storey) for storey in document.storeys),

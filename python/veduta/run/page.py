@@ -69,6 +69,8 @@ class Page:
     title: str
     summary: str
     facts: Sequence[tuple[str, str]] = ()
+    doubts: Sequence[str] = ()
+    """What must be known before the result is trusted, as the terminal says it."""
     pictures: Sequence[Picture] = ()
     bars: Sequence[Bars] = ()
     tables: Sequence[Table] = ()

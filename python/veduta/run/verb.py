@@ -156,6 +156,7 @@ def _page(call: VerbCall, work: Work, failure: Failure | None) -> Page:
         title=call.subject,
         summary=failure.reason if failure else work.summary,
         facts=[] if failure else work.facts,
+        doubts=[] if failure else work.doubts,
         pictures=work.pictures,
         bars=work.charts,
         tables=work.tables,
