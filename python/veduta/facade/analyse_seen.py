@@ -238,7 +238,8 @@ def _read(
         progress("floors", 0.5)
         elements = front.between(sides.left, sides.right)
         if not elements:
-            raise NotFoundError("a facade", "no window or door lies between its sides", REMEDY)
+            reason = "between the left and the right end of the building is no window or door"
+            raise NotFoundError("a facade", reason, REMEDY)
         wall = front.wall[: inner.height, sides.left : sides.right]
         storeys = storeys_of(inner, skyline, elements, wall, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1

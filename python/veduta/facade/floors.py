@@ -133,7 +133,7 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
     if not candidates:
         raise NotFoundError(
             "a facade",
-            "no chain of floors fits between the skyline and the ground"
+            "no storeys of a usual height fit between the sky and the ground"
             + ("" if height_m is None else f" for a height of {height_m} m"),
             "Give a photo in which the whole facade is seen, or its --corners, "
             "and check --height-m where it is given.",

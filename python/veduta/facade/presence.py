@@ -15,7 +15,10 @@ _EDGES = 0.01
 _HALF_ANGLE_DEG = 10.0
 _ALIGNED = 0.3
 
-REMEDY = "Give a photo of one facade; where there is one, name its --corners."
+REMEDY = (
+    "Give a photo of one house front, from about straight ahead; if this is one, name the corners"
+    " of the front with --corners."
+)
 
 
 def require_building(evidence: Evidence) -> None:
@@ -23,13 +26,13 @@ def require_building(evidence: Evidence) -> None:
     strength = np.hypot(evidence.gx, evidence.gy)
     edges = (strength > _EDGE) & evidence.valid
     if edges.sum() < _EDGES * max(int(evidence.valid.sum()), 1):
-        raise NotFoundError("a facade", "the picture shows next to no edges", REMEDY)
+        raise NotFoundError("a facade", "the picture is nearly empty: it has no outlines as a building has", REMEDY)
     direction = np.rad2deg(np.arctan2(evidence.gy[edges], evidence.gx[edges])) % 90
     aligned = float((np.minimum(direction, 90 - direction) < _HALF_ANGLE_DEG).mean())
     if aligned < _ALIGNED:
         raise NotFoundError(
             "a facade",
-            f"only {100 * aligned:.0f} % of the edges are upright or level, "
-            f"where noise has {200 * _HALF_ANGLE_DEG / 90:.0f} %",
+            f"only {100 * aligned:.0f} % of its outlines are upright or level, as a building's are; "
+            f"a picture of no building has {200 * _HALF_ANGLE_DEG / 90:.0f} %",
             REMEDY,
         )

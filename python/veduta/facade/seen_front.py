@@ -65,14 +65,20 @@ def require_front(
     openings = [e for e in elements if e.kind != "balcony"]
     marked = sum(e.kind != "balcony" for e in found)
     if len(openings) < parameters.openings or sum(e.score for e in openings) < parameters.sure:
-        raise NotFoundError("a facade", f"only {len(openings)} windows and doors are seen", REMEDY)
+        seen_here = "no window or door" if not openings else "hardly a window or door"
+        raise NotFoundError("a facade", f"{seen_here} is seen in the picture", REMEDY)
     if len(openings) < parameters.believed * marked:
-        reason = f"of {marked} marks of windows and doors {len(openings)} are sure"
+        reason = (
+            f"{marked} places look a little like windows or doors, and only {len(openings)} of"
+            " them surely are"
+        )
         raise NotFoundError("a facade", reason, REMEDY)
     share = float((seen.chance(*FRONT) > 0.5).mean())
     if share < parameters.front:
         raise NotFoundError(
-            "a facade", f"only {100 * share:.0f} % of the picture looks like a front", REMEDY
+            "a facade",
+            f"only {100 * share:.0f} % of the picture is wall, windows, doors or shops",
+            REMEDY,
         )
 
 

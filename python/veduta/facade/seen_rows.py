@@ -26,6 +26,12 @@ class RowParameters:
     row may exceed the narrowest before the storeys are doubtful.
     `sure`: the score of a window that is; at least `least_sure` of them, and `sure_share` of all,
     must be for storeys to be read from them.
+    `cellar_high`, `cellar_near`: the lowest row is that of a cellar where its windows are lower than
+    this share of those above, and its step from them is less than this share of the storey (of
+    their height, where no other step tells it: `cellar_by_height`).
+    `through`: a floor's border is none where it runs through a row, this share of the row's height
+    away from its heads and sills. `two_in_one`: a ground floor has no two rows, if not a cellar's,
+    whose sills are this many storeys apart.
     """
 
     overlap: float = 0.5
@@ -38,6 +44,11 @@ class RowParameters:
     sure: float = 0.5
     least_sure: int = 3
     sure_share: float = 0.5
+    cellar_high: float = 0.65
+    cellar_near: float = 0.8
+    cellar_by_height: float = 1.6
+    through: float = 0.15
+    two_in_one: float = 0.7
 
 
 @dataclass(frozen=True)
@@ -103,12 +114,39 @@ def is_even(rows: Sequence[WindowRow], eaves: float | None, parameters: RowParam
     return bool(steps) and max(steps) <= parameters.even * min(steps)
 
 
-def agrees(floors: Floors, rows: Sequence[WindowRow]) -> bool:
-    """Whether each floor above the ground floor has just one of the rows."""
+def without_cellar(rows: Sequence[WindowRow], parameters: RowParameters) -> list[WindowRow]:
+    """The rows without that of a cellar or plinth, whose low windows lie close below others."""
+    if len(rows) < 2:
+        return list(rows)
+    *above, last = rows
+    high = np.array([r.bottom - r.top for r in above])
+    storey = pitch(above) or parameters.cellar_by_height * float(high[-1])
+    is_low = last.bottom - last.top < parameters.cellar_high * float(min(high[-1], np.median(high)))
+    step = last.bottom - above[-1].bottom
+    return above if is_low and step < parameters.cellar_near * storey else list(rows)
+
+
+def agrees(floors: Floors, rows: Sequence[WindowRow], parameters: RowParameters) -> bool:
+    """Whether each floor above the ground floor has just one of the rows, and none is cut.
+
+    Nor has the ground floor two rows of its own; the rows are those without a cellar's.
+    """
     middles = np.array([0.5 * (r.top + r.bottom) for r in rows])
     inside = middles[(middles > floors.eaves) & (middles < floors.ground_top)]
     counts = np.histogram(inside, np.array(floors.boundaries, np.float64))[0]
-    return bool((counts == 1).all())
+    if not bool((counts == 1).all()):
+        return False
+    sills = [r.bottom for r, middle in zip(rows, middles, strict=True) if middle > floors.ground_top]
+    apart = parameters.two_in_one * floors.mean_storey
+    if any(b - a > apart for a, b in pairwise(sills)):
+        return False
+    return not any(_is_through(border, r, parameters) for border in floors.boundaries for r in rows)
+
+
+def _is_through(border: float, row: WindowRow, parameters: RowParameters) -> bool:
+    """Whether a border of floors runs through the windows of a row."""
+    aside = parameters.through * (row.bottom - row.top)
+    return row.top + aside < border < row.bottom - aside
 
 
 def without_roof(floors: Floors, top: int, rows: Sequence[WindowRow]) -> Floors | None:
@@ -124,11 +162,13 @@ def floors_of_rows(
     roof: float,
     bottom: int,
     parameters: RowParameters,
+    *,
+    has_cellar: bool = False,
 ) -> Floors | None:
     """Floors with a row of windows each; None where there are none above the ground floor.
 
     `eaves` is where another step has them, `roof` the upper end of the building, `bottom` the
-    street (rows of pixels).
+    street (rows of pixels). With windows of a cellar below it, the lowest row is the ground floor's.
     """
     storey = pitch(rows)
     if storey is None:
@@ -137,7 +177,7 @@ def floors_of_rows(
     if not rows:
         return None
     lines = [a.bottom + parameters.line * (b.top - a.bottom) for a, b in pairwise(rows)]
-    if bottom - rows[-1].bottom >= parameters.own_ground * storey:
+    if not has_cellar and bottom - rows[-1].bottom >= parameters.own_ground * storey:
         below = rows[-1].bottom + parameters.ground * storey
         lines.append(min(below, bottom - 0.3 * storey))
     above = rows[0].top - parameters.eaves * storey

@@ -23,8 +23,10 @@ from veduta.facade.seen_rows import (
     floors_of_rows,
     is_even,
     window_rows,
+    without_cellar,
     without_roof,
 )
+from veduta.facade.set_back import with_set_back
 from veduta.run.errors import NotFoundError
 
 _PLANE = "storeys: doubtful, so the front is a plane with openings and has no floors"
@@ -99,7 +101,9 @@ def _storeys(
     parameters = RowParameters()
     windows = [e for e in elements if e.kind == "window"]
     boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in windows]).reshape(-1, 4)
-    rows = window_rows(boxes, parameters)
+    every = window_rows(boxes, parameters)
+    rows = without_cellar(every, parameters)
+    has_cellar = len(rows) < len(every)
     plain = _plain_floors(evidence, skyline, options)
     top, bottom = float(skyline.level), evidence.height
     eaves = float(plain.eaves) if plain is not None else None
@@ -111,11 +115,12 @@ def _storeys(
         plain = without_roof(plain, skyline.level, rows)
     if not are_sure(windows, parameters):
         return Storeys(_plane(rows, skyline, elements), [_PLANE, _UNSURE])
-    if plain is not None and agrees(plain, rows):
-        return Storeys(plain, [])
-    floors = floors_of_rows(rows, eaves, top, bottom, parameters)
+    balconies = [e for e in elements if e.kind == "balcony"]
+    if plain is not None and agrees(plain, rows, parameters):
+        return Storeys(with_set_back(plain, rows, balconies, evidence.width), [])
+    floors = floors_of_rows(rows, eaves, top, bottom, parameters, has_cellar=has_cellar)
     if floors is not None and is_even(rows, eaves, parameters):
-        return Storeys(floors, [])
+        return Storeys(with_set_back(floors, rows, balconies, evidence.width), [])
     reason = _UNEVEN if len(rows) > 1 else _ONE_ROW
     return Storeys(_plane(rows, skyline, elements), [_PLANE, reason])
 
@@ -155,8 +160,11 @@ def _under_gable(
     if any(_is_over_slopes(e, gable, len(skyline.rows)) for e in windows if e not in below):
         return None
     boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in below]).reshape(-1, 4)
-    rows = window_rows(boxes, parameters)
-    floors = floors_of_rows(rows, eaves, eaves, evidence.height, parameters)
+    every = window_rows(boxes, parameters)
+    rows = without_cellar(every, parameters)
+    has_cellar = len(rows) < len(every)
+    bottom = evidence.height
+    floors = floors_of_rows(rows, eaves, eaves, bottom, parameters, has_cellar=has_cellar)
     kind: RoofKind = "gable" if is_wall(gable, wall, skyline, GableParameters().wall) else "hip"
     if floors is None or not is_even(rows, eaves, parameters):
         return None

@@ -57,7 +57,7 @@ def test_a_front_without_openings_between_its_sides_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(analyse_seen, "in_crop", lambda *_: [])
-    with pytest.raises(NotFoundError, match="no window or door lies between its sides"):
+    with pytest.raises(NotFoundError, match="is no window or door"):
         read(draw_facade(5).pixels)
 
 

@@ -15,6 +15,7 @@ from veduta.facade.seen_rows import (
     floors_of_rows,
     is_even,
     window_rows,
+    without_cellar,
     without_roof,
 )
 
@@ -49,7 +50,7 @@ def test_floors_part_the_rows_and_the_lowest_row_may_be_the_ground_floor() -> No
     shops_below = floors_of_rows(rows, None, 0.0, 400, PARAMETERS)
     assert shops_below is not None
     assert len(shops_below.boundaries) == 4
-    assert agrees(shops_below, rows)
+    assert agrees(shops_below, rows, PARAMETERS)
     own = floors_of_rows(rows, None, 0.0, 330, PARAMETERS)
     assert own is not None
     assert len(own.boundaries) == 3
@@ -64,6 +65,33 @@ def test_one_row_gives_no_floors_and_uneven_rows_are_told() -> None:
     rows = window_rows(grid([50, 100, 250], [10, 60]), PARAMETERS)
     assert not is_even(rows, None, PARAMETERS)
     assert is_even(rows, 95.0, PARAMETERS), "what is in the roof says nothing of the storeys"
+
+
+def test_low_windows_close_below_a_row_are_those_of_a_cellar() -> None:
+    above = grid([50, 150, 250], [10, 60, 110])
+    cellar = grid([318], [10, 60, 110], height=15)
+    every = window_rows(np.vstack([above, cellar]), PARAMETERS)
+    rows = without_cellar(every, PARAMETERS)
+    assert [r.top for r in rows] == [50, 150, 250]
+    floors = floors_of_rows(rows, None, 0.0, 375, PARAMETERS, has_cellar=True)
+    assert floors is not None
+    assert len(floors.boundaries) == 3, "the row above the cellar is the ground floor's"
+    whole = window_rows(grid([50, 150, 250, 350], [10, 60, 110]), PARAMETERS)
+    assert without_cellar(whole, PARAMETERS) == whole, "as high as the others"
+    far = window_rows(np.vstack([above, grid([370], [10, 60, 110], height=15)]), PARAMETERS)
+    assert without_cellar(far, PARAMETERS) == far, "a storey below the others"
+
+
+def test_floors_agree_with_no_row_that_a_border_runs_through() -> None:
+    rows = window_rows(grid([50, 150, 250], [10, 60, 110]), PARAMETERS)
+    assert agrees(Floors([30, 130, 230], 100.0, 0.0, {}, 0), rows, PARAMETERS)
+    assert not agrees(Floors([30, 130, 268], 100.0, 0.0, {}, 0), rows, PARAMETERS)
+
+
+def test_a_ground_floor_has_no_two_rows_a_storey_apart() -> None:
+    rows = window_rows(grid([50, 150, 250, 350], [10, 60, 110]), PARAMETERS)
+    assert not agrees(Floors([30, 130, 230], 100.0, 0.0, {}, 0), rows, PARAMETERS)
+    assert agrees(Floors([30, 130, 230, 330], 100.0, 0.0, {}, 0), rows, PARAMETERS)
 
 
 def test_wall_above_the_eaves_belongs_to_the_upper_floor() -> None:
