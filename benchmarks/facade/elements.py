@@ -48,7 +48,7 @@ from veduta.facade.elements import (
     find_windows,
     seen_bands,
 )
-from veduta.facade.eyes import Seen, look, seen_elements
+from veduta.facade.eyes import Seen, believed, look, seen_elements
 from veduta.imaging.read import read_image
 
 HERE = Path(__file__).parent
@@ -144,7 +144,8 @@ def _openings(pixels: Pixels, true: dict[str, Boxes]) -> dict[str, list[int]]:
 
 
 def _seen_boxes(seen: Seen, kind: str) -> Boxes:
-    found = [(e.x0, e.y0, e.x1, e.y1) for e in seen_elements(seen) if e.kind == kind]
+    every = believed(seen_elements(seen), seen)
+    found = [(e.x0, e.y0, e.x1, e.y1) for e in every if e.kind == kind]
     return np.array(found, np.float64).reshape(-1, 4)
 
 
@@ -153,7 +154,7 @@ def _of_cmp(path: Path) -> dict[str, list[int]]:
     counts = _openings(pixels, _true(Labelled(path.stem, path, cmp_picture_labels(path))))
     seen, indices = look(pixels), _indices(path)
     whole = np.isin(indices, (CMP_WINDOW, CMP_BLIND)).astype(np.uint8)
-    windows = [e for e in seen_elements(seen) if e.kind == "window"]
+    windows = [e for e in believed(seen_elements(seen), seen) if e.kind == "window"]
     with_shutters = np.array([one.box for one in casements(seen, windows)]).reshape(-1, 4)
     for way, boxes in (("alone", _seen_boxes(seen, "window")), ("with shutters", with_shutters)):
         counts[f"window+blind {way}"] = _levels(boxes, components(whole, 1, SPECK_PX))

@@ -28,7 +28,7 @@ from texture_measures import psnr, ssim
 from veduta.facade.analyse import analyse
 from veduta.facade.cleared.surface import fill_front
 from veduta.facade.document import FacadeDocument, Source
-from veduta.facade.eyes import look, seen_elements
+from veduta.facade.eyes import believed, look, seen_elements
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.photo_masks import PixelBox
 from veduta.facade.rectify import rectify
@@ -131,8 +131,9 @@ def hidden_windows(front: HiddenFront) -> NDArray[np.float64]:
 
 def found_again(pixels: Pixels, true: NDArray[np.float64]) -> int:
     """How many of the windows (n, 4) the learned eyes see in a picture."""
-    seen = [e for e in seen_elements(look(pixels)) if e.kind == "window"]
-    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in seen]).reshape(-1, 4)
+    seen = look(pixels)
+    windows = [e for e in believed(seen_elements(seen), seen) if e.kind == "window"]
+    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in windows]).reshape(-1, 4)
     return int((overlaps(boxes, true).max(axis=0) >= SAME).sum()) if len(boxes) else 0
 
 

@@ -66,7 +66,10 @@ def plane_of_segments(
     height, width = photo.pixels.shape[:2]
     fit = fit_plane(segments.select(~held_out), (width, height), focal_px)
     if fit is None:
-        raise not_found("the straight edges of the photo have no two directions, level and upright, as a wall has")
+        raise not_found(
+            "the straight edges of the photo have no two directions, level and upright, as a wall"
+            " has"
+        )
     plane = FacadePlane(fit, fit, segments, held_out)
     require_evidence(plane, math.hypot(width, height))
     return _measured_facing(plane, photo, focal_px)

@@ -86,7 +86,7 @@ def require_evidence(plane: FacadePlane, diagonal_px: float) -> None:
     is_each = part_up >= least_up and part_along >= _MIN_NEAR_PART_EACH
     if part_along + part_up < _MIN_NEAR_PART or not is_each:
         raise not_found(
-            "the photo cannot be turned to a view from straight ahead, for too few lines of one wall "
+            "the photo cannot be turned to a view from straight ahead: too few lines of one wall "
             f"are seen in it: {part_along:.0%} of the straight edges are its level ones and "
             f"{part_up:.0%} its upright ones (a facade has {_MIN_NEAR_PART:.0%} or more together, "
             f"{_MIN_NEAR_PART_EACH:.0%} level and {least_up:.1%} upright at least)"

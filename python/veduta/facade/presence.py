@@ -26,13 +26,14 @@ def require_building(evidence: Evidence) -> None:
     strength = np.hypot(evidence.gx, evidence.gy)
     edges = (strength > _EDGE) & evidence.valid
     if edges.sum() < _EDGES * max(int(evidence.valid.sum()), 1):
-        raise NotFoundError("a facade", "the picture is nearly empty: it has no outlines as a building has", REMEDY)
+        reason = "the picture is nearly empty: it has no outlines as a building has"
+        raise NotFoundError("a facade", reason, REMEDY)
     direction = np.rad2deg(np.arctan2(evidence.gy[edges], evidence.gx[edges])) % 90
     aligned = float((np.minimum(direction, 90 - direction) < _HALF_ANGLE_DEG).mean())
     if aligned < _ALIGNED:
         raise NotFoundError(
             "a facade",
-            f"only {100 * aligned:.0f} % of its outlines are upright or level, as a building's are; "
-            f"a picture of no building has {200 * _HALF_ANGLE_DEG / 90:.0f} %",
+            f"only {100 * aligned:.0f} % of its outlines are upright or level, as a building's "
+            f"are; a picture of no building has {200 * _HALF_ANGLE_DEG / 90:.0f} %",
             REMEDY,
         )

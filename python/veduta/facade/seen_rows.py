@@ -26,8 +26,8 @@ class RowParameters:
     row may exceed the narrowest before the storeys are doubtful.
     `sure`: the score of a window that is; at least `least_sure` of them, and `sure_share` of all,
     must be for storeys to be read from them.
-    `cellar_high`, `cellar_near`: the lowest row is that of a cellar where its windows are lower than
-    this share of those above, and its step from them is less than this share of the storey (of
+    `cellar_high`, `cellar_near`: the lowest row is that of a cellar where its windows are lower
+    than this share of those above, and its step from them is less than this share of the storey (of
     their height, where no other step tells it: `cellar_by_height`).
     `through`: a floor's border is none where it runs through a row, this share of the row's height
     away from its heads and sills. `two_in_one`: a ground floor has no two rows, if not a cellar's,
@@ -136,7 +136,7 @@ def agrees(floors: Floors, rows: Sequence[WindowRow], parameters: RowParameters)
     counts = np.histogram(inside, np.array(floors.boundaries, np.float64))[0]
     if not bool((counts == 1).all()):
         return False
-    sills = [r.bottom for r, middle in zip(rows, middles, strict=True) if middle > floors.ground_top]
+    sills = [r.bottom for r in rows if 0.5 * (r.top + r.bottom) > floors.ground_top]
     apart = parameters.two_in_one * floors.mean_storey
     if any(b - a > apart for a, b in pairwise(sills)):
         return False
@@ -168,7 +168,7 @@ def floors_of_rows(
     """Floors with a row of windows each; None where there are none above the ground floor.
 
     `eaves` is where another step has them, `roof` the upper end of the building, `bottom` the
-    street (rows of pixels). With windows of a cellar below it, the lowest row is the ground floor's.
+    street (rows of pixels). Above windows of a cellar, the lowest row is the ground floor's.
     """
     storey = pitch(rows)
     if storey is None:
