@@ -1,6 +1,7 @@
 """Walks played in Chromium from end to end: what their frames cost, and which are hitches.
 
-`python benchmarks walk/played WALK... [--keep]`: results of `veduta walk` and `veduta demo --walk`.
+`python benchmarks walk/played WALK... [--rounds 3] [--ahead] [--keep]`: results of
+`veduta walk` and `veduta demo --walk`, each as often.
 A hitch is a frame of over 100 ms; at_keys: within 0.08 of a key position, where models come and
 go. `walk/preparing` prepares the paper's walk and plays it; this one plays what there is.
 """
@@ -11,7 +12,7 @@ import argparse
 import os
 from pathlib import Path
 
-from preparing import play
+from preparing import AHEAD, play
 from record import keep_or_print
 
 
@@ -19,14 +20,22 @@ def main() -> None:
     """Play each, and keep the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("walks", type=Path, nargs="+")
+    parser.add_argument("--rounds", type=int, default=1)
+    parser.add_argument("--ahead", action="store_true", help=AHEAD)
     parser.add_argument("--keep", action="store_true")
     given = parser.parse_args()
     before = os.getloadavg()[0]
-    rows = [play(walk.resolve().parent.name + "/" + walk.name, walk, None) for walk in given.walks]
+    rows = [
+        play(walk.resolve().parent.name, walk, None, ahead=given.ahead)
+        for walk in given.walks
+        for _ in range(given.rounds)
+    ]
     notes = [
         f"Load when it began: {before:.1f}, at the end {os.getloadavg()[0]:.1f}, on"
         f" {os.cpu_count()} cores.",
-        "Played at 960 x 540 CSS px, half as many drawn, by a software renderer.",
+        "Played at 960 x 540 CSS px, half as many drawn, by a software renderer."
+        + (" The browser went before all other programs." if given.ahead else ""),
+        "processor: time of all processes and threads of the browser in a frame, on all cores.",
     ]
     keep_or_print("walk-played", rows, notes, given.keep)
 

@@ -44,7 +44,7 @@ from veduta.walk.record import WalkRecord, read_stereo_record
 from veduta.walk.rig import Image, Rig
 from veduta.walk.tell import document_of, tell_marks, tell_walk
 
-VERSION = "7"
+VERSION = "8"
 FILM = "walk.mp4"
 CLOUD_STEP_PX = 6
 CLOUD_FARTHEST_M = 60.0
@@ -145,7 +145,7 @@ def _make(work: Work, record: WalkRecord, options: WalkOptions) -> None:
         with work.step("video") as step:
             step.counts["frames"] = _film(work, record, found, gains, options)
         work.file(FILM, "the walk as a film")
-    tell_walk(work, found.stations, found.ends, found.ways)
+    tell_walk(work, found.stations, found.ends, found.ways, in_metres=record.in_metres)
     tell_marks(work, found.figures, found.stations, found.marked)
 
 
@@ -231,7 +231,7 @@ def _write_place(
         _written(work.folder, number, ends, way, pictures, found.stations[ends[0]].screen, made)
         for number, (ends, way) in enumerate(zip(found.ends, found.ways, strict=True))
     ]
-    place = Place()
+    place = Place(scale="metres" if record.in_metres else "unknown")
     place.walks.append(
         walk_of(
             "Walk",
@@ -251,7 +251,7 @@ def _write_place(
     place.save(work.folder)
     document = document_of(
         record.rig, record.keys, found.figures, found.stations, gains, found.ends,
-        found.ways, [models for _, models in told],
+        found.ways, [models for _, models in told], in_metres=record.in_metres,
     )  # fmt: skip
     write_document(document, work.folder / DOCUMENT)
     return len(points)

@@ -50,6 +50,11 @@ class PhotoRecord:
         return [*self.sources, *(pairs[n].left for n in sorted(around))]
 
     @property
+    def in_metres(self) -> bool:
+        """As the cameras are."""
+        return self.path.known
+
+    @property
     def first(self) -> Matrix:
         """As the cameras say, where they are in metres; else level at the origin."""
         if not self.path.known:

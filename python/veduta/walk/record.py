@@ -41,6 +41,10 @@ class WalkRecord(Protocol):
     def first(self) -> Matrix:
         """(4, 4) world_from_camera of the first key position."""
 
+    @property
+    def in_metres(self) -> bool:
+        """Whether the scale is known; else neighbouring frames count as 1 apart."""
+
     def files_of(self, number: int) -> list[Path]:
         """What a key position depends on."""
 
@@ -79,6 +83,11 @@ class StereoRecord:
     def first(self) -> Matrix:
         """Level at the origin, looking north."""
         return world_from_first()
+
+    @property
+    def in_metres(self) -> bool:
+        """A rig's baseline says it."""
+        return True
 
     def files_of(self, number: int) -> list[Path]:
         """Its pictures."""

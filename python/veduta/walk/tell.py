@@ -20,8 +20,10 @@ from veduta.walk.keys import KeyFigures
 from veduta.walk.rig import Image, PairFiles, Rig
 
 Cell = float | int | str | None
+UNITS = {True: "m", False: "frame steps"}
+"""Of lengths, by whether they are in metres."""
 COLUMNS = (
-    "from, to", "kind", "m", "Psi", "predicted dB", "unmoved dB", "energy", "by ICM", "bound",
+    "from, to", "kind", "Psi", "predicted dB", "unmoved dB", "energy", "by ICM", "bound",
 )  # fmt: skip
 MUCH_MOVES = 0.15
 """Of a view: more is rarely a thing that moves, and often a wrong depth."""
@@ -36,10 +38,11 @@ NOTE = (
 def document_of(
     rig: Rig, keys: list[tuple[PairFiles, ...]], figures: list[KeyFigures], stations: list[Station],
     gains: Gains, ends: list[tuple[int, int]], ways: list[Way],
-    models: list[tuple[str, str] | None],
+    models: list[tuple[str, str] | None], *, in_metres: bool = True,
 ) -> WalkDocument:  # fmt: skip
     """`walk.json` of a walk. ends: the numbers of the key positions of each way; models: files."""
     return WalkDocument(
+        scale="metres" if in_metres else "unknown",
         rig=RigRecord(
             width_px=rig.width_px, height_px=rig.height_px, focal_px=rig.focal_px,
             centre_px=rig.centre_px, baseline_m=rig.baseline_m,
@@ -86,13 +89,18 @@ def _transition(way: Way, start: str, end: str, models: tuple[str, str] | None) 
 
 
 def tell_walk(
-    work: Work, stations: list[Station], ends: list[tuple[int, int]], ways: list[Way]
-) -> None:
-    """The report: measures, a table of the transitions, and what is doubtful."""
+    work: Work, stations: list[Station], ends: list[tuple[int, int]], ways: list[Way], *,
+    in_metres: bool = True,
+) -> None:  # fmt: skip
+    """The report: measures, a table of the transitions, and what is doubtful.
+
+    in_metres: whether the walk's scale is known.
+    """
+    unit = UNITS[in_metres]
     kinds = [way.kind for way in ways]
     steps = [way.distance_m for way in ways if way.forth]
     work.measure("key_positions", len(stations))
-    work.measure("length_m", sum(steps))
+    work.measure("length_m" if in_metres else "length_frame_steps", sum(steps))
     for kind in ("morph", "fade", "cut"):
         work.measure(f"transitions_{kind}", kinds.count(kind))
     rows: list[list[Cell]] = []
@@ -102,10 +110,15 @@ def tell_walk(
             work.doubt(f"{names}: {'a cut' if way.kind == 'cut' else 'cross-faded'}: {way.why}")
         if way.predicted is not None and way.kind != "morph":
             work.picture(names, f"the view of {stations[end].id} as predicted", way.predicted)
+        if way.beside is not None:
+            work.picture(
+                f"{names}, a cut", "both views, which have too little in common", way.beside
+            )
         if max(way.moving) > 0.0:
             _tell_moving(work, names, way)
         rows.append([names, way.kind, *_figures(way)])
-    work.table(Table("Transitions", list(COLUMNS), rows, note=NOTE))
+    columns = [*COLUMNS[:2], unit, *COLUMNS[2:]]
+    work.table(Table("Transitions", columns, rows, note=NOTE))
     _best_picture(work, ways)
     work.file("walk.json", "the key positions and transitions, each with its score")
     work.file("place.json", "the place that `veduta view` shows")
@@ -114,8 +127,8 @@ def tell_walk(
     if any(way.forth is not None for way in ways):
         work.file("walk/way-*.glb", "the models of both ends of each transition that is no cut")
     work.summary = (
-        f"{len(stations)} key positions, {sum(steps):.1f} m: {kinds.count('morph')} transitions"
-        f" morph, {kinds.count('fade')} cross-fade, {kinds.count('cut')} are cut"
+        f"{len(stations)} key positions, {sum(steps):.1f} {unit}: {kinds.count('morph')}"
+        f" transitions morph, {kinds.count('fade')} cross-fade, {kinds.count('cut')} are cut"
     )
 
 

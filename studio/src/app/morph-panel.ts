@@ -1,7 +1,7 @@
 /** The walk from view to view: play and pause, how far one is, how one sees it, and how good the transition is. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { headsetIsThere } from "../core/headset.ts";
-import { metresTo, type MorphState, type MorphWalk, placeOn } from "../core/morph-walk.ts";
+import { goneOf, type MorphState, type MorphWalk, NO_SCALE, placeOn } from "../core/morph-walk.ts";
 import { icons } from "./icons.ts";
 import { lineStyles } from "./line-styles.ts";
 import { theme } from "./theme.ts";
@@ -72,10 +72,10 @@ export class MorphPanel extends LitElement {
     const { transition } = placeOn(walk, now);
     const way = walk.transitions[transition];
     const how = way === undefined ? "one position" : `${transition + 1} of ${walk.transitions.length} ${KINDS[way.kind]}`;
-    const gone = `${metresTo(walk, now).toFixed(1)} m of ${metresTo(walk, walk.transitions.length).toFixed(1)} m`;
+    const gone = goneOf(walk, now);
     return html`<button class="icon-button" aria-label=${label} title=${label} aria-pressed=${playing} data-field="play"
         @click=${() => this.#emit("play-walk")}>${playing ? icons.pause : icons.play}</button>
-      <div class="where"><strong data-field="metres">${gone}</strong><span data-field="way" title=${how}>${how}</span></div>
+      <div class="where"><strong data-field="metres" title=${walk.inMetres ? nothing : NO_SCALE}>${gone}</strong><span data-field="way" title=${how}>${how}</span></div>
       <input type="range" aria-label="How far the walk is" min="0" max=${walk.transitions.length} step="0.01" aria-valuetext=${gone}
         .value=${String(now)} @input=${(event: Event) => this.#emit("seek-walk", Number((event.target as HTMLInputElement).value))} />
       <button class="word" title="Picture, geometry, counterparts (J)" data-field="look" @click=${() => this.#emit("look-walk")}>${at?.look ?? "picture"}</button>

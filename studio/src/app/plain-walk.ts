@@ -1,6 +1,6 @@
 /** A walk without WebGL 2: the pictures of its key positions, cross-faded, and why they are. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
-import { metresTo, type MorphWalk, nearestStation, placeOn } from "../core/morph-walk.ts";
+import { goneOf, type MorphWalk, nearestStation, placeOn } from "../core/morph-walk.ts";
 import { fileAddress, placeAddress, readPlace } from "../core/place.ts";
 import { theme } from "./theme.ts";
 
@@ -112,7 +112,7 @@ export class PlainWalkView extends LitElement {
     const { transition, m } = placeOn(walk, this.instant ? nearestStation(walk, this.at) : this.at);
     const way = walk.transitions[transition];
     this.#share = way?.kind === "cut" ? Math.round(m) : m;
-    const gone = `${metresTo(walk, this.at).toFixed(1)} m of ${metresTo(walk, walk.transitions.length).toFixed(1)} m`;
+    const gone = goneOf(walk, this.at);
     return html`<img alt="" src=${pictures[way?.start ?? 0] ?? ""} data-field="start" />
       <img alt="" src=${pictures[way?.end ?? 0] ?? ""} data-field="end" />
       <div class="panel sheet" role="group" aria-label="The walk"

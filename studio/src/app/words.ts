@@ -1,5 +1,5 @@
 /** What the page says of itself: the title of the place, and what one can do. */
-import { metresTo } from "../core/morph-walk.ts";
+import { lengthOf } from "../core/morph-walk.ts";
 import { standsAlone } from "../core/place.ts";
 import type { StudioState } from "../core/state.ts";
 import type { Session } from "./session.ts";
@@ -10,7 +10,7 @@ export function titleOf(session: Session): string {
   if (session.town !== null) return "A town of many buildings";
   const { shots, scaleKnown, walks } = session.place;
   const walk = walks[0];
-  if (walk !== undefined) return `A walk of ${metresTo(walk, walk.transitions.length).toFixed(1)} m`;
+  if (walk !== undefined) return `A walk of ${lengthOf(walk)}`;
   const parts = session.place.parts.filter(({ layer }) => layer === "model");
   if (shots.length > 0 || parts.length === 0) {
     const photos = shots.length === 1 ? "1 photo" : `${shots.length} photos`;

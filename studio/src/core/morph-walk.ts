@@ -30,6 +30,8 @@ export interface MorphWalk {
   readonly id: string;
   readonly name: string;
   readonly speed_m_s: number;
+  /** False: nobody knows the scale, and what counts as a metre is a step from frame to frame. */
+  readonly inMetres: boolean;
   readonly stations: readonly Station[];
   readonly transitions: readonly Transition[];
   /** For each transition, how far its ends are from each other (m). */
@@ -65,6 +67,7 @@ export function readMorphWalk(
   which: string,
   broken: (fault: string) => Fault,
   isInside: (path: unknown) => path is string,
+  inMetres: boolean,
 ): MorphWalk {
   const bad = (field: string): Fault => broken(`${which} has no proper "${field}"`);
   if (typeof value !== "object" || value === null) throw broken(`${which} is not a record`);
@@ -79,10 +82,10 @@ export function readMorphWalk(
   const transitions = ways.map((way) => readTransition(way, stations.length, isInside, () => bad("transitions")));
   const { speed_m_s = 1.4 } = walk;
   if (typeof speed_m_s !== "number" || !(speed_m_s > 0)) throw bad("speed_m_s");
-  return { id, name, speed_m_s, stations, transitions, lengths_m: transitions.map((way) => lengthOf(stations, way)) };
+  return { id, name, speed_m_s, inMetres, stations, transitions, lengths_m: transitions.map((way) => apartOf(stations, way)) };
 }
 
-function lengthOf(stations: readonly Station[], { start, end }: Transition): number {
+function apartOf(stations: readonly Station[], { start, end }: Transition): number {
   const [from, to] = [stations[start]?.worldFromCamera, stations[end]?.worldFromCamera];
   if (from === undefined || to === undefined) return SHORTEST_M;
   return Math.max(SHORTEST_M, Math.hypot(...[12, 13, 14].map((row) => (to[row] ?? 0) - (from[row] ?? 0))));
@@ -219,6 +222,21 @@ export function walkedOn(walk: MorphWalk, at: number, metres: number, left = 0):
 export function metresTo(walk: MorphWalk, at: number): number {
   return walk.lengths_m.reduce((sum, length, n) => sum + length * Math.min(1, Math.max(0, at - n)), 0);
 }
+
+/** How far one has gone, and how long the way is, in words; in metres where anybody knows them. */
+export function goneOf(walk: MorphWalk, at: number): string {
+  const [gone, whole] = [at, walk.transitions.length].map((place) => metresTo(walk, place).toFixed(1));
+  return walk.inMetres ? `${gone} m of ${whole} m` : `${gone} of ${whole} steps`;
+}
+
+/** How long the way is, in words. */
+export function lengthOf(walk: MorphWalk): string {
+  const whole = metresTo(walk, walk.transitions.length).toFixed(1);
+  return walk.inMetres ? `${whole} m` : `${whole} steps (scale unknown)`;
+}
+
+/** Why it is not said in metres; nothing where it is. */
+export const NO_SCALE = "The cameras' scale is not known: a step is that from frame to frame, by and large";
 
 /** No more transitions are held, however many ways part here. */
 const MOST_HELD = 5;

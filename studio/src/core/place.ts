@@ -154,7 +154,7 @@ export function readPlace(text: string, file: string): Place {
     shots: shots.map((shot, index) => readShot(shot, `camera ${index + 1}`, broken)),
     tours: tours.map((tour, index) => readTour(tour, `tour ${index + 1}`, broken)),
     animals: animals.map((animal, index) => readAnimal(animal, `animal ${index + 1}`, known, broken)),
-    walks: walks.map((walk, index) => readMorphWalk(walk, `walk ${index + 1}`, broken, isInside)),
+    walks: walks.map((walk, index) => readMorphWalk(walk, `walk ${index + 1}`, broken, isInside, manifest.scale !== "unknown")),
     scaleKnown: manifest.scale !== "unknown",
     hidden: readHidden(manifest.hidden),
     sun: readSun(manifest.sun, broken),

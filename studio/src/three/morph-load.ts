@@ -1,5 +1,5 @@
 /** Loading what a walk needs near the person: the models of transitions, and the pictures of stations. */
-import { BufferAttribute, BufferGeometry, Mesh, NoColorSpace, Texture, type WebGLRenderer } from "three";
+import { BufferAttribute, BufferGeometry, Mesh, NoColorSpace, Texture } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Fault } from "../core/fault.ts";
 import { type MorphWalk, nearTransitions, placeOn } from "../core/morph-walk.ts";
@@ -7,6 +7,7 @@ import { fileAddress } from "../core/place.ts";
 import type { Wish, Wishes } from "../core/wishes.ts";
 import { bitmapTexture } from "./bitmap-texture.ts";
 import { fetchBytes } from "./fetch.ts";
+import { HandingOver, OneByOne } from "./handing-over.ts";
 import { within } from "./limited-image.ts";
 
 const REMEDY = "Write the walk again with `veduta walk`.";
@@ -39,8 +40,8 @@ export class MorphFiles {
   readonly #ways = new Map<number, Near<WayModels>>();
   readonly #pictures = new Map<number, Near<Texture>>();
   #wanted = new Set<number>();
-  /** Pictures that have come, but are not on the card. */
-  readonly #fresh = new Set<Texture>();
+  readonly #fresh = new HandingOver();
+  readonly #reading = new OneByOne();
 
   constructor(walk: MorphWalk, manifest: URL, most_px: number, onArrival: () => void, wishes: Wishes) {
     this.#walk = walk;
@@ -58,13 +59,11 @@ export class MorphFiles {
     return this.#pictures.get(station)?.came ?? null;
   }
 
-  /** Gives the card one of the pictures that have come: all at once, at a key position, would be felt. */
-  handOver(renderer: Pick<WebGLRenderer, "initTexture">): void {
-    const [next] = this.#fresh;
-    if (next === undefined) return;
-    this.#fresh.delete(next);
-    renderer.initTexture(next);
-    if (this.#fresh.size > 0) this.#onArrival();
+  /** Gives the card one piece of what has come; changes the renderer's target. */
+  handOver(renderer: Parameters<HandingOver["giveOne"]>[0]): void {
+    if (this.#fresh.count === 0) return;
+    this.#fresh.giveOne(renderer);
+    if (this.#fresh.count > 0) this.#onArrival();
   }
 
   /** How many models of transitions are held. */
@@ -128,6 +127,7 @@ export class MorphFiles {
     for (const { came } of this.#pictures.values()) came?.dispose();
     this.#ways.clear();
     this.#pictures.clear();
+    this.#fresh.dispose();
   }
 
   /** What does not come stays null, so that nobody but `wishes` asks for it again. */
@@ -142,8 +142,10 @@ export class MorphFiles {
       if (came.forth === undefined || came.back === undefined) return;
       const models = { forth: came.forth, back: came.back };
       const now = this.#ways.get(transition);
-      if (now?.came === null && this.#wanted.has(transition)) now.came = models;
-      else for (const one of endsOf(models)) dispose(one);
+      if (now?.came === null && this.#wanted.has(transition)) {
+        now.came = models;
+        this.#fresh.add(...endsOf(models).flatMap(({ seen, torn, moving }) => [seen, torn, moving]));
+      } else for (const one of endsOf(models)) dispose(one);
       this.#onArrival();
     };
     own.wishes = ([["forth", forth], ["back", back]] as const).map(([end, file]) =>
@@ -159,7 +161,6 @@ export class MorphFiles {
     this.#pictures.set(station, own);
     const wish = this.#wishes.bring(file, async () => await this.#bitmap(file), (bitmap) => {
       const texture = bitmapTexture(bitmap, NoColorSpace);
-      texture.addEventListener("dispose", () => this.#fresh.delete(texture));
       const now = this.#pictures.get(station);
       if (now?.came === null) {
         now.came = texture;
@@ -173,10 +174,12 @@ export class MorphFiles {
 
   async #bitmap(file: string): Promise<ImageBitmap> {
     const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
-    const bitmap = await createImageBitmap(new Blob([bytes])).catch(() => {
-      throw new Fault(file, "the picture cannot be read", REMEDY);
+    return await this.#reading.do(async () => {
+      const bitmap = await createImageBitmap(new Blob([bytes])).catch(() => {
+        throw new Fault(file, "the picture cannot be read", REMEDY);
+      });
+      return await within(bitmap, this.#most_px);
     });
-    return await within(bitmap, this.#most_px);
   }
 
   async #model(file: string): Promise<EndModel> {
@@ -184,7 +187,7 @@ export class MorphFiles {
     const loader = new GLTFLoader();
     // The picture is for other programs: here one is shared by all models of its station.
     loader.register(() => ({ name: "EXT_texture_webp", loadTexture: async () => await Promise.resolve(new Texture()) }));
-    const { scene } = await loader.parseAsync(bytes, "").catch((error: unknown) => {
+    const { scene } = await this.#reading.do(async () => await loader.parseAsync(bytes, "")).catch((error: unknown) => {
       throw new Fault(file, `the model is broken (${error instanceof Error ? error.message : String(error)})`, REMEDY);
     });
     const geometries = new Map<string, BufferGeometry>();

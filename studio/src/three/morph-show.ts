@@ -147,6 +147,7 @@ export class MorphShow {
       renderer.setRenderTarget(target);
       this.#lay(renderer, between);
     }
+    this.#files[state.which]?.handOver(renderer);
     renderer.setRenderTarget(null);
   }
 

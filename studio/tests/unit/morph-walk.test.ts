@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { Fault } from "../../src/core/fault.ts";
-import { heightToCover, metresTo, type MorphWalk, nearestStation, nearTransitions, placeOn, reachOf, readMorphWalk, walkedOn } from "../../src/core/morph-walk.ts";
+import { goneOf, heightToCover, lengthOf, metresTo, type MorphWalk, nearestStation, nearTransitions, placeOn, reachOf, readMorphWalk, walkedOn } from "../../src/core/morph-walk.ts";
 import { isInside } from "../../src/core/place.ts";
 
 const station = (id: string, y: number): object => ({
@@ -20,14 +20,21 @@ const record = {
   keys: [station("a", 0), station("b", 2), station("c", 6)],
   transitions: [morph, { start: 1, end: 2, kind: "cut", forth: null, back: null, score_db: null }],
 };
-const read = (change: object = {}): MorphWalk =>
-  readMorphWalk({ ...record, ...change }, "walk 1", (fault) => new Fault("place.json", fault, "Mend it."), isInside);
+const read = (change: object = {}, inMetres = true): MorphWalk =>
+  readMorphWalk({ ...record, ...change }, "walk 1", (fault) => new Fault("place.json", fault, "Mend it."), isInside, inMetres);
 
 describe("a walk from view to view", () => {
   it("is read with the lengths of its transitions", () => {
     const walk = read();
     expect(walk.lengths_m).toEqual([2, 4]);
     expect(walk.transitions.map(({ kind }) => kind)).toEqual(["morph", "cut"]);
+  });
+
+  it("says metres only where the scale is known", () => {
+    expect(goneOf(read(), 1)).toBe("2.0 m of 6.0 m");
+    expect(goneOf(read({}, false), 1)).toBe("2.0 of 6.0 steps");
+    expect(lengthOf(read())).toBe("6.0 m");
+    expect(lengthOf(read({}, false))).toBe("6.0 steps (scale unknown)");
   });
 
   it.each([

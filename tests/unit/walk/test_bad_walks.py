@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import json
+import re
 import shutil
+from io import BytesIO
 from pathlib import Path
 
 import cv2
@@ -115,6 +118,14 @@ def test_nothing_in_common_becomes_a_marked_cut(record: Path, tmp_path: Path) ->
     told = json.loads((tmp_path / "out" / "walk.json").read_text())
     assert [one["kind"] for one in told["transitions"]] == ["morph", "cut"]
     assert any(doubt.startswith("001 to 002: a cut") for doubt in result.doubts)
+    page = (tmp_path / "out" / "report.html").read_text()
+    pictured = r'src="data:image/jpeg;base64,([^"]+)" alt="001 to 002, a cut"'
+    (shown,) = re.findall(pictured, page)
+    both = np.asarray(Image.open(BytesIO(base64.b64decode(shown))))
+    sides = [np.asarray(Image.open(record / "left" / f"00{n}.png")) for n in (1, 2)]
+    assert both.shape[1] == 2 * sides[0].shape[1]
+    for picture, side in zip(np.split(both, 2, axis=1), sides, strict=True):
+        assert np.abs(picture.astype(float) - side).mean() < 8
 
 
 def test_snow_without_texture_is_cut_and_said(record: Path, tmp_path: Path) -> None:

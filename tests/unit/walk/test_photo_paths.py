@@ -17,7 +17,7 @@ from veduta.synthetic.walks.shoot import WalkCamera
 from veduta.walk import command
 from veduta.walk.build.photo_depth import FramePlanes
 from veduta.walk.command import Sources, run_walk
-from veduta.walk.options import TakeOptions, WalkOptions
+from veduta.walk.options import PhotoOptions, TakeOptions, WalkOptions
 from veduta.walk.photo_record import PhotoRecord, read_photo_record
 from veduta.walk.read.photo_path import read_photo_path
 
@@ -111,6 +111,15 @@ def test_an_unknown_scale_is_said(frames: Path, tmp_path: Path) -> None:
     assert path.rig.width_px == 128
     assert path.rig.baseline_m == pytest.approx(1.0)
     assert path.picture(0).shape == (80, 128, 3)
+    options = WalkOptions(take=TakeOptions(every=2), photo=PhotoOptions(largest_px=128))
+    sources = Sources(cameras=tmp_path / "sparse")
+    result = run_walk(
+        frames / "photos", tmp_path / "out", options, Progress(quiet=True), sources=sources
+    )
+    assert " frame steps: " in result.summary
+    assert any("scale is not known" in doubt for doubt in result.doubts)
+    for name in ("walk.json", "place.json"):
+        assert json.loads((tmp_path / "out" / name).read_text())["scale"] == "unknown"
 
 
 def _write_colmap(folder: Path, cameras: Path) -> None:

@@ -41,7 +41,7 @@ class Way:
     predicted: the end's view from the start's colours, levelled. ratio: by how much brighter the
     second picture is in each channel; None where too little is in common to say. moving: share of
     the start's and of the end's view that shows what moved, and shown: the start's view with that
-    painted, where there is any.
+    painted, where there is any. beside: of a cut, both views side by side.
     """
 
     second_from_first: Matrix
@@ -56,6 +56,7 @@ class Way:
     ratio: tuple[float, float, float] | None = None
     moving: tuple[float, float] = (0.0, 0.0)
     shown: Image | None = None
+    beside: Image | None = None
 
     @property
     def distance_m(self) -> float:
@@ -68,6 +69,12 @@ class Way:
         if self.forth is None or self.back is None:
             return "cut"
         return "fade" if self.why else "morph"
+
+
+def side_by_side(left: Image, right: Image) -> Image:
+    """Two pictures in one; mosaics differ in height by a row or two, which is cut off."""
+    height = min(len(left), len(right))
+    return np.concatenate([left[:height], right[:height]], axis=1)
 
 
 def find_way(
@@ -85,7 +92,8 @@ def find_way(
         try:
             found = relative_pose(first.plane, second.plane, rig, matches)
         except NotFoundError as error:
-            return Way(np.eye(4)[:3], why=error.evidence)
+            both = side_by_side(first.image, second.image)
+            return Way(np.eye(4)[:3], why=error.evidence, beside=both)
         pose = found.second_from_first
     stereo_px_m = rig.focal_px[0] * rig.baseline_m
     moving = (

@@ -29,10 +29,8 @@ def arrays_of(way: Way) -> dict[str, NDArray[Any]]:
         "pose": way.second_from_first,
         "told": np.frombuffer(json.dumps(told).encode(), dtype=np.uint8),
     }
-    if way.predicted is not None:
-        arrays["predicted"] = way.predicted
-    if way.shown is not None:
-        arrays["shown"] = way.shown
+    pictures = {"predicted": way.predicted, "shown": way.shown, "beside": way.beside}
+    arrays |= {name: picture for name, picture in pictures.items() if picture is not None}
     for name, mesh in (("forth", way.forth), ("back", way.back)):
         if mesh is not None:
             arrays |= {f"{name}_{column}": getattr(mesh, column) for column in _COLUMNS}
@@ -54,7 +52,7 @@ def way_of(arrays: dict[str, NDArray[Any]]) -> Way:
         arrays.get("predicted"), told["matches"], told["residual_px"],
         None if told["energies"] is None else tuple(told["energies"]), told["why"],
         None if told["ratio"] is None else tuple(told["ratio"]), tuple(told["moving"]),
-        arrays.get("shown"),
+        arrays.get("shown"), arrays.get("beside"),
     )  # fmt: skip
 
 

@@ -92,6 +92,9 @@ class WalkDocument(_Record):
 
     schema_: Literal["veduta/walk"] = Field(default="veduta/walk", alias="schema")
     version: Literal[1] = 1
+    scale: Literal["metres", "unknown"] = Field(
+        default="metres", description="unknown: neighbouring frames count as 1 m apart"
+    )
     rig: RigRecord
     keys: list[KeyRecord] = Field(min_length=1, max_length=20_000)
     transitions: list[TransitionRecord] = Field(max_length=100_000)
