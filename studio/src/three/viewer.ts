@@ -376,6 +376,7 @@ export class Viewer {
     this.#steering.release();
     this.#orbit.enabled = mode === "orbit";
     if (mode === "walk") {
+      this.#walk.begin();
       this.#orbitPose = { pose: poseOf(this.#camera), target: this.#orbit.target.clone() };
       this.#fly(this.#walk.pose(this.#camera));
       return;

@@ -2,12 +2,14 @@
 import { MathUtils, type PerspectiveCamera, Vector3 } from "three";
 import { drawnFromWorld } from "../core/frames.ts";
 import { directionOf, headingOf, turned } from "../core/heading.ts";
+import { withElbowRoom } from "../core/elbow-room.ts";
 import type { Box } from "../core/framing.ts";
 import { add, subtract, type Vec3 } from "../core/vector.ts";
 import {
   type Body,
   DEFAULT_WALK,
   eyeOf,
+  INDOOR_BODY,
   isMoving,
   type Obstacles,
   standing,
@@ -38,6 +40,8 @@ export class WalkRig {
   readonly #start: { readonly eye: Vec3; readonly target: Vec3 };
   readonly #obstacles: Obstacles;
   #walker: Walker;
+  /** Nobody has gone anywhere yet. */
+  #isFresh = true;
   /** How far the eye is behind the body, upwards. */
   #lag_m = 0;
 
@@ -67,6 +71,7 @@ export class WalkRig {
   goTo(places: readonly Vec3[]): boolean {
     const free = places.find((feet) => this.#obstacles.pushOut(add(feet, [0, 0, OFF_FLOOR_M]), this.options.body) === null);
     if (free === undefined) return false;
+    this.#isFresh = false;
     this.#walker = { ...this.#walker, feet: add(free, [0, 0, OFF_FLOOR_M]), velocity: [0, 0, 0], grounded: false };
     this.#lag_m = 0;
     return true;
@@ -74,7 +79,17 @@ export class WalkRig {
 
   restart(): void {
     this.#walker = this.#standingAtStart();
+    const { feet } = this.#walker;
+    // Within doors it is narrow anyway.
+    const room = this.options.body === INDOOR_BODY ? feet : withElbowRoom(feet, this.#obstacles, this.options.body);
+    this.#walker = { ...this.#walker, feet: room };
     this.#lag_m = 0;
+  }
+
+  /** Whoever walks for the first time: what stands at the start was not there when this was made. */
+  begin(): void {
+    if (this.#isFresh) this.restart();
+    this.#isFresh = false;
   }
 
   #standingAtStart(): Walker {
@@ -84,6 +99,7 @@ export class WalkRig {
 
   /** Stands where somebody with this eye looks. */
   place(eye: Vec3, direction: Vec3): void {
+    this.#isFresh = false;
     this.#walker = standing(eye, headingOf(direction), this.options);
     this.#lag_m = 0;
   }
