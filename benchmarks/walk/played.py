@@ -35,6 +35,9 @@ def main() -> None:
         f" {os.cpu_count()} cores.",
         "Played at 960 x 540 CSS px, half as many drawn, by a software renderer."
         + (" The browser went before all other programs." if given.ahead else ""),
+        "at_keys: within 0.08 of a key position, where models change; after_keys: up to 0.5 beyond"
+        " one, while what comes next is read; between: all but the first, the start of the walk"
+        " too; hitches: frames of over 100 ms.",
         "processor: time of all processes and threads of the browser in a frame, on all cores.",
     ]
     keep_or_print("walk-played", rows, notes, given.keep)

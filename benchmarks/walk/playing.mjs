@@ -17,6 +17,8 @@ const [studio, address, picture] = process.argv.slice(2).filter((word) => word !
 const { chromium } = createRequire(`${studio}/package.json`)("playwright-core");
 const PATIENCE_MS = 200_000;
 const NEAR = 0.08;
+/** So long after a key position what is next on the way is read. */
+const READ = 0.5;
 /** A frame that takes longer is a hitch. */
 const HITCH_MS = 100;
 const SAMPLE_MS = 10;
@@ -113,6 +115,7 @@ function told(frames, tasks, heap, costs) {
   const parted = (values) => [true, false].map((wanted) => values.filter((_, n) => isKey(frames[n][0]) === wanted));
   const [atKeys, between] = parted(column(1));
   const [spentAtKeys, spentBetween] = parted(costs);
+  const afterKeys = frames.filter(([at]) => at > 1 && at < last - NEAR && at % 1 < READ).map((row) => row[1]);
   const hitches = (values) => values.filter((value) => value > HITCH_MS).length;
   const most = (values) => (values.length === 0 ? 0 : Math.max(...values));
   return {
@@ -122,6 +125,8 @@ function told(frames, tasks, heap, costs) {
     keys_crossed: Math.max(0, Math.round(last) - 1),
     most_at_keys_ms: most(atKeys),
     hitches_at_keys: hitches(atKeys),
+    most_after_keys_ms: most(afterKeys),
+    hitches_after_keys: hitches(afterKeys),
     most_between_ms: most(between),
     hitches_between: hitches(between),
     processor_median_ms: spent[Math.floor(spent.length / 2)],
