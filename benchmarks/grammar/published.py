@@ -4,7 +4,7 @@ The files of others are not ours to keep: how many of each project derived on a 
 when it was read for the first time and now, stands here as it was found. `python benchmarks
 grammar/published [--keep]` adds our own, two folders beside the tests, `published` and
 `published_more`: it derives them on the same lot and compares what they report with what was worked
-out by hand.
+out by hand. It also evaluates the examples that the reference prints values of.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from __future__ import annotations
 import argparse
 import math
 import runpy
+import sys
+import tempfile
 import time
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -52,6 +54,13 @@ UNSEEN = {
     "swiss, a rule of streets": (1, 1, 1),
 }
 """Those read after that, by the engine as it was at that time."""
+THIRD = {
+    "kikita, a rule of touching volumes": (2, 2, 2),
+    "Esri Japan, tutorials": (4, 4, 4),
+    "Esri, a city at night": (0, 1, 1),
+    "snippets of a Chinese collection": (3, 3, 3),
+}
+"""Those read after that again."""
 
 FIRST_TRY = {"the forty": (33, 40), "fifteen more": (14, 15)}
 """Right, and how many there were."""
@@ -94,6 +103,8 @@ def main() -> None:
     rows = [
         *_of_others("published, the engine was mended with them in view", ENGINE_MENDED),
         *_of_others("published, read after that", UNSEEN),
+        *_of_others("published, read after that again", THIRD),
+        *_of_reference(),
     ]
     for told, files in sets.items():
         right, count = FIRST_TRY[told]
@@ -113,6 +124,22 @@ def _of_others(told: str, projects: Mapping[str, tuple[int, int, int]]) -> list[
 
     sums = [sum(column) for column in zip(*projects.values(), strict=True)]
     return [row(sums), *(row(counts) | {"file": name} for name, counts in projects.items())]
+
+
+def _of_reference() -> list[Row]:
+    """The examples of functions that the reference prints values of."""
+    sys.path.insert(0, str(TESTS))
+    pages = runpy.run_path(str(TESTS / "reference_values.py"))
+    values_of = runpy.run_path(str(TESTS / "reference_page.py"))["values_of"]
+    right = count = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for definitions, examples in pages["PAGES"].values():
+            found = values_of(definitions, [one for one, _ in examples], Path(folder))
+            right += sum(one == wanted for one, (_, wanted) in zip(found, examples, strict=True))
+            count += len(examples)
+    told = "values printed in the reference"
+    first = f"{pages['FIRST_TRY']} of {count}"
+    return [{"files": told, "first_try": first, "state": f"{right} of {count}"}]
 
 
 def _tried(told: str, name: str, path: Path, wanted: Mapping[str, float]) -> Row:

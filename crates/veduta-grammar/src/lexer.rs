@@ -13,6 +13,7 @@ pub(crate) fn lex(text: &str, diagnostics: &mut Diagnostics) -> Tokens {
         tokens: Tokens::default(),
         diagnostics,
         annotated: 0,
+        over_lines: strings_end(text),
     };
     while lexer.at < text.len() {
         lexer.step();
@@ -33,6 +34,47 @@ struct Lexer<'a> {
     /// How many brackets are open in the arguments of an annotation, which are for a user interface:
     /// what they say is never a fault.
     annotated: usize,
+    /// Whether a string may go on over the ends of lines.
+    over_lines: bool,
+}
+
+/// Whether every string has its end where strings may go on over the ends of lines. Where one has not,
+/// a quote is missing somewhere, and strings are taken to end with their lines: so the fault is
+/// reported where it is.
+fn strings_end(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    while at < bytes.len() {
+        let rest = &text.as_bytes()[at..];
+        let past = |end: &[u8]| {
+            let found = rest.windows(end.len()).skip(1).position(|one| one == end);
+            found.map(|before| before + 1 + end.len())
+        };
+        at += match rest {
+            [b'#', ..] | [b'/', b'/', ..] => past(b"\n").unwrap_or(rest.len()),
+            [b'/', b'*', ..] => past(b"*/").unwrap_or(rest.len()),
+            [b'"', ..] => match string_length(rest, true) {
+                Some(length) => length,
+                None => return false,
+            },
+            _ => 1,
+        };
+    }
+    true
+}
+
+/// The bytes of the string at the beginning, with its quotes; None where it has no end.
+fn string_length(bytes: &[u8], over_lines: bool) -> Option<usize> {
+    let mut at = 1;
+    loop {
+        match (bytes.get(at)?, bytes.get(at + 1)) {
+            (b'"', _) => return Some(at + 1),
+            (b'\n', _) if !over_lines => return None,
+            (b'\\', Some(b'\n')) if !over_lines => return None,
+            (b'\\', Some(_)) => at += 2,
+            _ => at += 1,
+        }
+    }
 }
 
 /// Longest first, as a prefix of one word may be another.
@@ -185,27 +227,18 @@ impl Lexer<'_> {
 
     /// A string ends at its quote, or, where that is missing, with its line.
     fn string(&mut self) {
-        let bytes = self.rest().as_bytes();
-        let mut length = 1;
-        while length < bytes.len() && !matches!(bytes[length], b'"' | b'\n') {
-            length += if bytes[length] == b'\\' && !matches!(bytes.get(length + 1), Some(b'\n')) {
-                2
-            } else {
-                1
-            };
-        }
-        let mut length = length.min(bytes.len());
-        if bytes.get(length) == Some(&b'"') {
-            length += 1;
-        } else {
-            while !self.rest().is_char_boundary(length) {
-                length -= 1;
+        let rest = self.rest();
+        let length = match string_length(rest.as_bytes(), self.over_lines) {
+            Some(length) => length,
+            None => {
+                let line = rest.find('\n').unwrap_or(rest.len());
+                let opening = Span::new(self.at, self.at + 1);
+                let fault = Diagnostic::error(opening, "this string does not end");
+                let hint = "close it with `\"` on the same line".to_string();
+                self.diagnostics.add(fault.with_hint(hint));
+                line
             }
-            let opening = Span::new(self.at, self.at + 1);
-            let hint = "close it with `\"` on the same line".to_string();
-            self.diagnostics
-                .add(Diagnostic::error(opening, "this string does not end").with_hint(hint));
-        }
+        };
         self.push(TokenKind::Text, length);
     }
 
@@ -322,8 +355,16 @@ impl Lexer<'_> {
     }
 }
 
-/// The value of a string from its text with the quotes. `\n`, `\t`, `\"` and `\\` are escapes;
-/// any other backslash stands for itself, as in paths.
+/// The character that four hexadecimal digits at the beginning of `text` name.
+fn code_point(text: &str) -> Option<char> {
+    let digits = text.get(..4)?;
+    let is_number = digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let number = is_number.then(|| u32::from_str_radix(digits, 16).ok())?;
+    number.and_then(char::from_u32)
+}
+
+/// The value of a string from its text with the quotes. `\n`, `\t`, `\"`, `\\` and `\uHHHH` are
+/// escapes; any other backslash stands for itself, as in paths.
 pub(crate) fn unescape(text: &str) -> String {
     let inside = text.strip_prefix('"').unwrap_or(text);
     let mut value = String::with_capacity(inside.len());
@@ -335,6 +376,13 @@ pub(crate) fn unescape(text: &str) -> String {
                 Some('n') => value.push('\n'),
                 Some('t') => value.push('\t'),
                 Some(other @ ('"' | '\\')) => value.push(other),
+                Some('u') => match code_point(characters.as_str()) {
+                    Some(named) => {
+                        value.push(named);
+                        characters = characters.as_str()[4..].chars();
+                    }
+                    None => value.push_str("\\u"),
+                },
                 Some(other) => value.extend(['\\', other]),
                 None => value.push('\\'),
             },

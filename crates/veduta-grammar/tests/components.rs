@@ -48,7 +48,7 @@ fn a_selector_sees_the_number_among_all() {
 fn values_of_components() {
     let value = |cells: &str| {
         said(&format!(
-            "Lot --> extrude(4) print(comp(f) {{ {cells} }}) NIL"
+            "Lot --> extrude(4) print(str(comp(f) {{ {cells} }})) NIL"
         ))
     };
     // Bottom, top, front, back, left and right of 10 m by 6 m by 4 m.

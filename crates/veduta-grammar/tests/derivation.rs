@@ -173,12 +173,20 @@ fn the_first_case_that_holds_is_taken() {
 fn arrays_and_strings() {
     let text = "const list = [1 : 2 : 7]
          const table = [1, 2 ; 3, 4]
-         Lot --> print(size(list) + \",\" + list[3] + \",\" + table[1, 0]) print(list .* 2)
+         Lot --> print(size(list) + \",\" + list[3] + \",\" + table[1, 0]) print(list .* 2) print(.-table)
                  print(substring(\"gable roof\", 0, 5) + find(\"abcabc\", \"c\", 1))
                  print(max(max(2, 7), 3) + sum(list)) print(cos(60)) print(-2 < 1 || 1 / 0 > 3)";
     assert_eq!(
         tree(text).messages,
-        ["4,7,3", "[2,6,10,14]", "gable5", "23", "0.5", "true"]
+        [
+            "4,7,3",
+            "(4)[2,6,10,14]",
+            "(2x2)\n   -1   -2\n   -3   -4",
+            "gable5",
+            "23",
+            "0.5",
+            "true"
+        ]
     );
 }
 
@@ -273,7 +281,7 @@ fn faults_say_what_is_wrong() {
     );
     assert!(fault("Lot --> s([1, 2], 1, 1)").contains("a number is needed, not an array"));
     assert!(fault("Lot --> print([1, 2][\"a\"])").contains("an index is a number"));
-    assert!(fault("Lot --> s(1 / 0, 1, 1)").contains("a finite number"));
+    assert!(fault("Lot --> s('1e300, 1, 1) s('1e300, 1, 1)").contains("a shape that reaches"));
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod arrays;
 mod assets;
 mod budgets;
 mod components;
+mod conformance;
 mod derivation;
 mod diagnostics;
 mod documents;

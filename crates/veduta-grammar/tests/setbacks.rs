@@ -235,7 +235,6 @@ fn conditions_choose() {
 fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> setback(-1) { all : A. }").contains("from 0 on"));
     assert!(fault("Lot --> setback([1, 2]) { all : A. }").contains("2 numbers for 4 edges"));
-    assert!(fault("Lot --> offset(0 / 0)").contains("a finite number"));
     assert!(fault("Lot --> comp(f) { uv.left : A. }").contains("selects no component"));
     assert!(fault("Lot --> primitiveCube(1e300, 1, 1) s(1e9, 1e9, 1e15)").contains("beyond"));
 }

@@ -131,7 +131,7 @@ fn scopes_of_faces_may_have_the_axes_of_the_shape() {
 
 #[test]
 fn parts_without_an_asset_are_the_shape() {
-    let text = "Lot --> extrude(3) set(material.name, \"brick\") print(geometry.materials) \
+    let text = "Lot --> extrude(3) set(material.name, \"brick\") print(str(geometry.materials)) \
                 print(size(geometry.groups)) comp(g) { all : print(geometry.nFaces) }";
     assert_eq!(said(text), ["[brick]", "1", "6"]);
 }

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from veduta import _core
 from veduta.grammar.encodings import decoded
-from veduta.grammar.project import SearchPath, search_path, with_folders
+from veduta.grammar.project import RULES, SearchPath, search_path, with_folders
 from veduta.grammar.rule_packages import SUFFIX as PACKAGE
 from veduta.grammar.rule_packages import unpacked
 from veduta.run.errors import InputError
@@ -50,9 +50,16 @@ class RuleFiles:
 
     @property
     def texts(self) -> list[tuple[str, str]]:
-        """The files, the main one first, by names that do not depend on where their folder is."""
-        folder = os.path.dirname(self.files[0][0])
-        return [(os.path.relpath(name, folder or "."), text) for name, text in self.files]
+        """The files, the main one first, by names that do not depend on where their folder is.
+
+        In a project they are named from its folder on, as imports may name them so.
+        """
+        folder = os.path.dirname(self.files[0][0]) or "."
+        above = [str(one) for one in self.search.folders if Path(folder).is_relative_to(one)]
+        top = min(above, key=len, default=folder)
+        if os.path.basename(top) == RULES:
+            top = os.path.dirname(top) or "."
+        return [(os.path.relpath(name, top), text) for name, text in self.files]
 
 
 @dataclass(frozen=True)

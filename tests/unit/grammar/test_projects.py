@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from veduta import _core
 from veduta.grammar.assets.library import Library
 from veduta.grammar.assets.primitives import primitive
 from veduta.grammar.encodings import decoded
@@ -85,6 +86,20 @@ def test_imports_that_begin_with_rules_are_found_without_a_project(tmp_path: Pat
     derived(rules)
     outside = 'import C : "../../secret.cga"\nLot --> C.Body'
     assert len(read_rules(write(tmp_path / "plain/rules/deep/bad.cga", outside)).files) == 1
+
+
+@pytest.mark.parametrize("path", ["rules/parts/body.cga", "parts/body.cga"])
+def test_imports_from_the_rules_folder_are_found_by_short_names_too(
+    tmp_path: Path, path: str
+) -> None:
+    """Towns are derived with names that do not depend on where the folder is."""
+    write(tmp_path / "city/assets/none.txt", "")
+    write(tmp_path / "city/rules/parts/body.cga", "Body --> extrude(6) A.")
+    text = f'import C : "{path}"\n@StartRule\nLot --> C.Body'
+    rules = read_rules(write(tmp_path / "city/rules/parts/house.cga", text))
+    assert len(rules.texts) == 2
+    assert not any(str(tmp_path) in name for name, _ in rules.texts)
+    _core.GrammarRules(rules.texts, None)
 
 
 def test_a_library_is_looked_in_where_the_call_names_it(project: Path, tmp_path: Path) -> None:

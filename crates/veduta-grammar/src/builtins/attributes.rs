@@ -11,7 +11,7 @@ const PLAIN: &[&str] = &[
     "initialShape.name", "initialShape.startRule",
     "initialShape.origin.px", "initialShape.origin.py", "initialShape.origin.pz",
     "initialShape.origin.ox", "initialShape.origin.oy", "initialShape.origin.oz",
-    "seedian", "trim.horizontal", "trim.vertical",
+    "seedian", "uid", "trim.horizontal", "trim.vertical",
     "material.name", "material.shader", "material.opacity", "material.shininess",
     "material.reflectivity", "material.bumpValue", "material.metallic", "material.roughness",
     "material.color.r", "material.color.g", "material.color.b",
@@ -54,6 +54,7 @@ pub fn is_settable(name: &str) -> bool {
         "scope.elevation",
         "pivot.",
         "seedian",
+        "uid",
     ];
     !read_only.iter().any(|start| name.starts_with(start))
 }

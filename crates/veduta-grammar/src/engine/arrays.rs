@@ -4,16 +4,17 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::functions::{array, number, text, Function};
-use super::value::{Array, Value};
+use super::indexing;
+use super::value::{Array, Kind, Value};
 
 /// Names, functions, and the fewest and most arguments.
 pub const TABLE: &[(&str, Function, usize, usize)] = {
     use Function::Of;
     &[
         ("boolArray", Of(truths), 0, 1),
-        ("findFirst", Of(find_first), 2, 2),
+        ("findFirst", Of(find_first), 2, 3),
         ("floatArray", Of(numbers), 0, 1),
-        ("setElems", Of(set_elements), 3, 4),
+        ("setElems", Of(indexing::set_elements), 3, 4),
         ("sortIndices", Of(sort_indices), 1, 1),
         ("sortRowIndices", Of(sort_row_indices), 1, 1),
         ("stringArray", Of(texts), 0, 1),
@@ -23,76 +24,63 @@ pub const TABLE: &[(&str, Function, usize, usize)] = {
 
 /// `floatArray()` is empty, and `floatArray(array)` the array with its elements as `float` gives them.
 fn numbers(args: &[Value]) -> Result<Value, String> {
-    converted(args, Function::ToFloat)
+    converted(args, Function::ToFloat, Kind::Numbers)
 }
 
 fn truths(args: &[Value]) -> Result<Value, String> {
-    converted(args, Function::ToBool)
+    converted(args, Function::ToBool, Kind::Truths)
 }
 
 fn texts(args: &[Value]) -> Result<Value, String> {
-    converted(args, Function::ToText)
+    converted(args, Function::ToText, Kind::Texts)
 }
 
-fn converted(args: &[Value], to: Function) -> Result<Value, String> {
+fn converted(args: &[Value], to: Function, kind: Kind) -> Result<Value, String> {
     if args.is_empty() {
-        return Ok(Value::list(Vec::new()));
+        return Ok(Value::Array(Arc::new(Array::default().or(kind))));
     }
     let from = array(args)?;
     let values = from.values.iter();
     let values: Result<_, _> = values
         .map(|value| to.call(std::slice::from_ref(value), || 0.0))
         .collect();
-    Ok(Value::Array(Arc::new(Array {
-        columns: from.columns,
-        values: values?,
-    })))
+    let all = Array::new(from.columns, values?).or(kind);
+    Ok(Value::Array(Arc::new(all)))
 }
 
-/// `findFirst(array, value)`: its number, row by row; `findFirst(text, part)`: the place of the
-/// first. -1 where it is not there.
+/// `findFirst(array, value)`, `findFirst(array, value, epsilon)`: its number, row by row, and how far
+/// off a number may be; `findFirst(text, part)`: the place of the first. -1 where it is not there.
 fn find_first(args: &[Value]) -> Result<Value, String> {
     if let Value::Text(all) = &args[0] {
         let place = all.find(text(args, 1)?);
         let characters = |at: usize| all[..at].chars().count() as f64;
         return Ok(Value::Number(place.map_or(-1.0, characters)));
     }
-    let place = array(args)?.values.iter().position(|one| *one == args[1]);
+    let epsilon = match args.len() {
+        2 => 0.0,
+        _ => number(args, 2)?,
+    };
+    let is_meant = |one: &Value| match (one, &args[1]) {
+        (Value::Number(one), Value::Number(wanted)) => (one - wanted).abs() <= epsilon,
+        (one, wanted) => one == wanted,
+    };
+    let place = array(args)?.values.iter().position(is_meant);
     Ok(Value::Number(place.map_or(-1.0, |place| place as f64)))
 }
 
-/// `setElems(array, index, value)`, `setElems(array, row, column, value)`: a copy with one element
-/// changed.
-fn set_elements(args: &[Value]) -> Result<Value, String> {
-    let mut changed = array(args)?.clone();
-    let value = args[args.len() - 1].clone();
-    let (row, column) = match args.len() {
-        3 => (0.0, number(args, 1)?),
-        _ => (number(args, 1)?, number(args, 2)?),
-    };
-    let columns = changed.columns as f64;
-    let is_inside = args.len() == 3 || (0.0..columns).contains(&column);
-    let flat = row.floor() * columns + column.floor();
-    let place = (is_inside && row >= 0.0 && flat >= 0.0)
-        .then(|| changed.values.get_mut(flat as usize))
-        .flatten();
-    let Some(place) = place else {
-        return Err(format!(
-            "index {row}, {column} in an array of {}",
-            changed.values.len()
-        ));
-    };
-    *place = value;
-    Ok(Value::Array(Arc::new(changed)))
-}
-
-/// `sortIndices(array)`: the numbers of its elements from the least on.
+/// `sortIndices(array)`: the numbers of the elements of each row from the least on.
 fn sort_indices(args: &[Value]) -> Result<Value, String> {
-    let values = &array(args)?.values;
+    let given = array(args)?;
+    let values = &given.values;
     let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| compared(&values[a], &values[b]));
+    for row in order.chunks_mut(given.columns.max(1)) {
+        row.sort_by(|&a, &b| compared(&values[a], &values[b]));
+    }
     let numbers = order.into_iter().map(|at| Value::Number(at as f64));
-    Ok(Value::list(numbers.collect()))
+    Ok(Value::Array(Arc::new(Array::new(
+        given.columns,
+        numbers.collect(),
+    ))))
 }
 
 /// `sortRowIndices(array)`: the numbers of its rows, in the order of their first elements, where
@@ -133,9 +121,6 @@ fn transpose(args: &[Value]) -> Result<Value, String> {
             values.push(given.values[row * columns + column].clone());
         }
     }
-    let turned = Array {
-        columns: rows,
-        values,
-    };
+    let turned = Array::new(rows, values);
     Ok(Value::Array(Arc::new(turned)))
 }

@@ -40,7 +40,7 @@ impl Run<'_> {
         };
         let names = asset.part_names(kind);
         Ok(if as_array {
-            Value::list(names.into_iter().map(Value::Text).collect())
+            Value::texts(names.into_iter().map(Value::Text).collect())
         } else {
             Value::text(
                 &names

@@ -23,6 +23,8 @@ pub struct Code {
     pub functions: Vec<UserFunction>,
     /// The rule that a derivation begins with where none is named.
     pub start: Option<usize>,
+    /// Whether something hangs on the pivots of shapes.
+    pub tells_pivot: bool,
     /// Whether a rule asks about other shapes.
     pub asks: bool,
     /// Whether one asks about shapes of other lots.

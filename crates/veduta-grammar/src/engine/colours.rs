@@ -89,12 +89,17 @@ pub fn parsed(text: &str) -> Option<([f32; 3], Option<f32>)> {
     ))
 }
 
+/// A channel without what single precision took from it.
+fn exact(channel: f32) -> f64 {
+    (f64::from(channel) * 255.0).round() / 255.0
+}
+
 fn given(args: &[Value]) -> Result<[f64; 4], String> {
     let text = text(args, 0)?;
     let (colour, opacity) =
         parsed(text).ok_or_else(|| format!("`{text}` is no colour: #rrggbb or #rrggbbaa"))?;
-    let [r, g, b] = colour.map(f64::from);
-    Ok([r, g, b, opacity.map_or(1.0, f64::from)])
+    let [r, g, b] = colour.map(exact);
+    Ok([r, g, b, opacity.map_or(1.0, exact)])
 }
 
 fn channel(args: &[Value], index: usize) -> Result<Value, String> {

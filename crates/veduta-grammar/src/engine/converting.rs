@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3, EulerRot};
 
+use super::shape_attributes::pivot;
 use super::state::State;
 use super::tree::Node;
 use super::value::Value;
@@ -49,10 +50,9 @@ pub fn convert(args: &[Value], state: &State, first: &Node) -> Result<Value, Str
 fn frame_named(name: &str, state: &State, first: &Node) -> Result<(DVec3, DMat3), String> {
     let scope = &state.form.scope;
     let object = &first.state.form.scope;
-    let pivot = state.extra.as_ref().and_then(|extra| extra.pivot);
     Ok(match name {
         "scope" => (scope.origin, scope.axes),
-        "pivot" => pivot.unwrap_or((DVec3::ZERO, DMat3::IDENTITY)),
+        "pivot" => pivot(state, first),
         "object" => (object.origin, object.axes),
         "world" => (DVec3::ZERO, DMat3::IDENTITY),
         other => {

@@ -15,6 +15,7 @@ use super::random::Stream;
 use super::run::Run;
 use super::state::State;
 use super::value::{Array, Value, MAX_ELEMENTS};
+use crate::Span;
 
 /// What a call costs, in steps of work.
 const STEPS_PER_CALL: usize = 16;
@@ -52,7 +53,10 @@ impl Run<'_> {
             ExprKind::Slot(slot) => Ok(scene.slots[*slot].clone()),
             ExprKind::Global(global) => self.global(*global, scene.state),
             ExprKind::Word(word) => Ok(Value::Text(word.clone())),
-            ExprKind::Attribute(attribute) => Ok(attribute.of(scene.state, self.first())),
+            ExprKind::Attribute(attribute) => {
+                let path = || self.tree.path(self.at);
+                Ok(attribute.of(scene.state, self.first(), path))
+            }
             ExprKind::Measure { measure, args } => {
                 let values = self.values(args, scene)?;
                 let tags = match measure.is_of_tags() {
@@ -86,7 +90,7 @@ impl Run<'_> {
             } => {
                 let values = self.component_values((*kind, *aligned), cells, expr.span, scene)?;
                 let columns = values.len();
-                Ok(Value::Array(Arc::new(Array { columns, values })))
+                Ok(Value::Array(Arc::new(Array::new(columns, values))))
             }
             ExprKind::Call { function, args } => self.called(*function, args, expr, scene),
             ExprKind::Builtin { function, args } => {
@@ -132,6 +136,27 @@ impl Run<'_> {
                 format!("a number is needed, not {}", value.kind()),
             )
         })
+    }
+
+    /// The value of an expression as a number that an operation may take.
+    pub fn finite(&mut self, expr: &Expr, scene: &mut Scene<'_>) -> Result<f64, Fault> {
+        let number = self.number(expr, scene)?;
+        self.without_bounds(number, expr.span)
+    }
+
+    /// The number for an operation; 0 stands for what is no number or has no bounds, as it does in
+    /// CityEngine, and a message says so once for each place in a rule.
+    pub(super) fn without_bounds(&mut self, number: f64, span: Span) -> Result<f64, Fault> {
+        if number.is_finite() {
+            return Ok(number);
+        }
+        if !self.zeroed.contains(&span) {
+            self.zeroed.push(span);
+            let rule = &self.tree.nodes[self.at as usize].name;
+            let told = format!("in the rule {rule}, 0 stands for a value that is {number}");
+            self.write(&Value::text(&told), span)?;
+        }
+        Ok(0.0)
     }
 
     pub fn values(&mut self, args: &[Expr], scene: &mut Scene<'_>) -> Result<Vec<Value>, Fault> {
@@ -279,6 +304,7 @@ impl Run<'_> {
             }
             let row = beside(parts).map_err(|message| Fault::at(expr.span, message))?;
             if row.values.is_empty() {
+                array = array.or(row.kind);
                 continue;
             }
             if !array.values.is_empty() && row.columns != array.columns {
@@ -289,6 +315,7 @@ impl Run<'_> {
                 return Err(Fault::at(expr.span, message));
             }
             array.columns = row.columns;
+            array.kind = row.kind;
             array.values.extend(row.values);
         }
         self.take(array.values.len(), expr.span)?;
@@ -298,12 +325,15 @@ impl Run<'_> {
     /// What stands between commas in an array: a value, a range, or an array.
     fn part(&mut self, element: &Expr, scene: &mut Scene<'_>) -> Result<Array, Fault> {
         let values = if let ExprKind::Range { from, step, to } = &element.kind {
-            let (from, to) = (self.number(from, scene)?, self.number(to, scene)?);
+            let (from, to) = (self.finite(from, scene)?, self.finite(to, scene)?);
             let step = match step {
-                Some(step) => self.number(step, scene)?,
+                Some(step) => self.finite(step, scene)?,
                 None => 1.0,
             };
-            let count = ((to - from) / step + 1e-9).floor() + 1.0;
+            let count = match step {
+                0.0 => 0.0,
+                _ => ((to - from) / step + 1e-9).floor() + 1.0,
+            };
             if !count.is_finite() || count > MAX_ELEMENTS as f64 {
                 return Err(Fault::at(
                     element.span,
@@ -318,10 +348,7 @@ impl Run<'_> {
                 value => vec![value],
             }
         };
-        Ok(Array {
-            columns: values.len(),
-            values,
-        })
+        Ok(Array::new(values.len(), values))
     }
 
     fn element(

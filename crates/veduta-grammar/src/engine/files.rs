@@ -82,7 +82,7 @@ impl FileFunction {
                 let found: Vec<&str> = matching(files, name).collect();
                 Ok(Value::text(&found.join(";")))
             }
-            Self::SearchAll => Ok(Value::list(
+            Self::SearchAll => Ok(Value::texts(
                 matching(files, name).map(Value::text).collect(),
             )),
             Self::Random => {
@@ -195,5 +195,6 @@ fn table(text: &str, value: impl Fn(&str) -> Value) -> Result<Value, String> {
         let row = cells(line);
         values.extend((0..columns).map(|at| value(row.get(at).map_or("", String::as_str))));
     }
-    Ok(Value::Array(Arc::new(Array { columns, values })))
+    let kind = Array::new(1, vec![value("")]).kind;
+    Ok(Value::Array(Arc::new(Array::new(columns, values).or(kind))))
 }

@@ -1,7 +1,11 @@
 //! The functions of the language that need no shape. Angles are in degrees.
 
+use std::sync::Arc;
+
+use super::operators::binary;
 use super::value::{Array, Value, MAX_ELEMENTS};
 use super::{arrays, colours, lists, strings};
+use crate::ast::BinaryOp;
 
 /// A built-in function.
 #[derive(Debug, Clone, Copy)]
@@ -9,8 +13,9 @@ pub enum Function {
     Math(fn(f64) -> f64),
     Math2(fn(f64, f64) -> f64),
     Test(fn(f64) -> bool),
-    /// Of all arguments, or of the elements of one array.
-    Fold(fn(f64, f64) -> f64),
+    /// Of all arguments, or of the elements of one array; of two texts or arrays the one that stands
+    /// so to the other.
+    Fold(fn(f64, f64) -> f64, BinaryOp),
     Random,
     Chance,
     ToBool,
@@ -55,8 +60,8 @@ const TABLE: &[(&str, Function, usize, usize)] = {
         ("pow", F::Math2(f64::powf), 2, 2),
         ("isinf", F::Test(f64::is_infinite), 1, 1),
         ("isnan", F::Test(f64::is_nan), 1, 1),
-        ("max", F::Fold(f64::max), 1, usize::MAX),
-        ("min", F::Fold(f64::min), 1, usize::MAX),
+        ("max", F::Fold(f64::max, BinaryOp::Greater), 1, usize::MAX),
+        ("min", F::Fold(f64::min, BinaryOp::Less), 1, usize::MAX),
         ("rand", F::Random, 0, 2),
         ("p", F::Chance, 1, 1),
         ("bool", F::ToBool, 1, 1),
@@ -98,10 +103,15 @@ impl Function {
     /// number of the shape's stream.
     pub fn call(self, args: &[Value], mut random: impl FnMut() -> f64) -> Result<Value, String> {
         match self {
-            Self::Math(map) => Ok(Value::Number(map(number(args, 0)?))),
-            Self::Math2(map) => Ok(Value::Number(map(number(args, 0)?, number(args, 1)?))),
-            Self::Test(test) => Ok(Value::Bool(test(number(args, 0)?))),
-            Self::Fold(fold) => folded(args, fold),
+            Self::Math(map) => mapped(&args[0], |value| Ok(Value::Number(map(finite(value)?)))),
+            Self::Math2(map) => Ok(Value::Number(map(finite(&args[0])?, finite(&args[1])?))),
+            Self::Test(test) => mapped(&args[0], |value| {
+                Ok(Value::Bool(test(number(std::slice::from_ref(value), 0)?)))
+            }),
+            Self::Fold(fold, wanted) => match args {
+                [a, b] if !is_numeric(a) || !is_numeric(b) => chosen(a, b, wanted),
+                _ => folded(args, fold),
+            },
             Self::Random => {
                 let (low, high) = match args.len() {
                     0 => (0.0, 1.0),
@@ -111,10 +121,13 @@ impl Function {
                 Ok(Value::Number(low + (high - low) * random()))
             }
             Self::Chance => Ok(Value::Bool(random() < number(args, 0)?)),
-            Self::ToBool => args[0].truth().map(Value::Bool).ok_or_else(|| no(&args[0])),
+            Self::ToBool => {
+                let truth = args[0].converted_truth();
+                truth.map(Value::Bool).ok_or_else(|| no(&args[0]))
+            }
             Self::ToFloat => Ok(Value::Number(read_number(&args[0]))),
             Self::ToText => Ok(Value::text(&args[0].written()?)),
-            Self::Sum => folded(args, |a, b| a + b),
+            Self::Sum => summed(args),
             Self::Of(work) => work(args),
             Self::Pick => lists::random(args, random()),
             Self::Print => Ok(args[0].clone()),
@@ -178,8 +191,58 @@ fn folded(args: &[Value], fold: fn(f64, f64) -> f64) -> Result<Value, String> {
     Ok(Value::Number(sum))
 }
 
-/// `clamp(value, low, high)`
+/// Of each element of an array, and of a single value.
+pub(super) fn mapped(
+    value: &Value,
+    map: impl Fn(&Value) -> Result<Value, String>,
+) -> Result<Value, String> {
+    let Value::Array(array) = value else {
+        return map(value);
+    };
+    let values: Result<_, _> = array.values.iter().map(map).collect();
+    Ok(Value::Array(Arc::new(Array::new(array.columns, values?))))
+}
+
+/// A number; 0 stands for what is none or has no bounds, as it does in CityEngine.
+fn finite(value: &Value) -> Result<f64, String> {
+    let number = number(std::slice::from_ref(value), 0)?;
+    Ok(if number.is_finite() { number } else { 0.0 })
+}
+
+/// Whether it counts as a number where two are compared.
+fn is_numeric(value: &Value) -> bool {
+    matches!(value, Value::Number(_) | Value::Bool(_))
+}
+
+/// That of two values which stands so to the other.
+fn chosen(a: &Value, b: &Value, wanted: BinaryOp) -> Result<Value, String> {
+    let is_first = binary(wanted, a, b)?.truth() == Some(true);
+    Ok(if is_first { a } else { b }.clone())
+}
+
+/// `sum(array)`: of numbers, of how many are true, or of texts as one text.
+fn summed(args: &[Value]) -> Result<Value, String> {
+    if let [Value::Array(array)] = args {
+        if let Some(Value::Text(_)) = array.values.first() {
+            let mut all = String::new();
+            for value in &array.values {
+                all.push_str(&value.written()?);
+                if all.len() > MAX_ELEMENTS {
+                    return Err(format!("a string of more than {MAX_ELEMENTS} bytes"));
+                }
+            }
+            return Ok(Value::text(&all));
+        }
+    }
+    folded(args, |a, b| a + b)
+}
+
+/// `clamp(value, low, high)`; of texts and arrays in their order.
 fn clamped(args: &[Value]) -> Result<Value, String> {
+    if !args.iter().all(is_numeric) {
+        let low = chosen(&args[0], &args[1], BinaryOp::Greater)?;
+        return chosen(&low, &args[2], BinaryOp::Less);
+    }
     let (value, low, high) = (number(args, 0)?, number(args, 1)?, number(args, 2)?);
     Ok(Value::Number(value.min(high).max(low)))
 }

@@ -44,11 +44,28 @@ fn list<'a>(elements: impl IntoIterator<Item = &'a str>) -> Value {
     Value::text(&all)
 }
 
+/// Whether an element is what is looked for, of which a `*` at an end stands for anything.
+fn is_like(element: &str, wanted: &str) -> bool {
+    match (wanted.strip_prefix('*'), wanted.strip_suffix('*')) {
+        (Some(inner), Some(_)) => element.contains(inner.strip_suffix('*').unwrap_or("")),
+        (Some(end), None) => element.ends_with(end),
+        (None, Some(start)) => element.starts_with(start),
+        (None, None) => element == wanted,
+    }
+}
+
+/// What is looked for: one text, or a list of them.
+fn wanted(args: &[Value]) -> Result<Vec<String>, String> {
+    let text = args[1].written()?;
+    let all = text.strip_suffix(';').unwrap_or(&text).split(';');
+    Ok(all.map(str::to_string).collect())
+}
+
 /// `listAdd(list, element)`
 fn add(args: &[Value]) -> Result<Value, String> {
     let mut all = elements(args, 0)?;
     let new = args[1].written()?;
-    all.push(&new);
+    all.push(new.strip_suffix(';').unwrap_or(&new));
     Ok(list(all))
 }
 
@@ -58,12 +75,12 @@ fn clean(args: &[Value]) -> Result<Value, String> {
     Ok(list(all.into_iter().filter(|one| !one.is_empty())))
 }
 
-/// `listCount(list, element)`
+/// `listCount(list, element)`; here and below, `*` at an end of the element stands for anything.
 fn count(args: &[Value]) -> Result<Value, String> {
     let wanted = args[1].written()?;
     let all = elements(args, 0)?;
     Ok(Value::Number(
-        all.iter().filter(|one| **one == wanted).count() as f64,
+        all.iter().filter(|one| is_like(one, &wanted)).count() as f64,
     ))
 }
 
@@ -95,13 +112,14 @@ fn from_array(args: &[Value]) -> Result<Value, String> {
 /// `listToArray(list)`
 fn to_array(args: &[Value]) -> Result<Value, String> {
     let all = elements(args, 0)?;
-    Ok(Value::list(all.into_iter().map(Value::text).collect()))
+    Ok(Value::texts(all.into_iter().map(Value::text).collect()))
 }
 
 /// `listIndex(list, element)`: of the first; -1 where there is none.
 fn index(args: &[Value]) -> Result<Value, String> {
     let wanted = args[1].written()?;
-    let place = elements(args, 0)?.iter().position(|one| *one == wanted);
+    let all = elements(args, 0)?;
+    let place = all.iter().position(|one| is_like(one, &wanted));
     Ok(Value::Number(place.map_or(-1.0, |place| place as f64)))
 }
 
@@ -125,7 +143,7 @@ fn range(args: &[Value]) -> Result<Value, String> {
 fn remove(args: &[Value]) -> Result<Value, String> {
     let wanted = args[1].written()?;
     let mut all = elements(args, 0)?;
-    if let Some(place) = all.iter().position(|one| *one == wanted) {
+    if let Some(place) = all.iter().position(|one| is_like(one, &wanted)) {
         all.remove(place);
     }
     Ok(list(all))
@@ -133,16 +151,16 @@ fn remove(args: &[Value]) -> Result<Value, String> {
 
 /// `listRemoveAll(list, others)`
 fn remove_all(args: &[Value]) -> Result<Value, String> {
-    let (all, others) = (elements(args, 0)?, elements(args, 1)?);
-    let others: std::collections::HashSet<&str> = others.into_iter().collect();
-    Ok(list(all.into_iter().filter(|one| !others.contains(one))))
+    let (all, others) = (elements(args, 0)?, wanted(args)?);
+    let is_meant = |one: &&str| others.iter().any(|other| is_like(one, other));
+    Ok(list(all.into_iter().filter(|one| !is_meant(one))))
 }
 
 /// `listRetainAll(list, others)`
 fn retain_all(args: &[Value]) -> Result<Value, String> {
-    let (all, others) = (elements(args, 0)?, elements(args, 1)?);
-    let others: std::collections::HashSet<&str> = others.into_iter().collect();
-    Ok(list(all.into_iter().filter(|one| others.contains(one))))
+    let (all, others) = (elements(args, 0)?, wanted(args)?);
+    let is_meant = |one: &&str| others.iter().any(|other| is_like(one, other));
+    Ok(list(all.into_iter().filter(|one| is_meant(one))))
 }
 
 /// `listSize(list)`

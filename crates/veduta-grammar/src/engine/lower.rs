@@ -52,6 +52,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             numbers: &numbers,
             instances: &instances,
             instance,
+            tells_pivot: false,
             asks: false,
             asks_beside: false,
             lists_files: false,
@@ -65,6 +66,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
         lowering.definitions(&checked.definitions[unit].values, &mut lowered.code);
         lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
         lowered.code.asks |= lowering.asks;
+        lowered.code.tells_pivot |= lowering.tells_pivot;
         lowered.code.asks_beside |= lowering.asks_beside;
         lowered.code.lists_files |= lowering.lists_files;
         lowered.code.reads_files |= lowering.reads_files;
@@ -164,6 +166,8 @@ fn is_global(definition: &Definition) -> bool {
 pub(super) struct Lowering<'a> {
     pub program: &'a Program,
     pub numbers: &'a Numbers,
+    /// Whether something in the file hangs on the pivots of shapes.
+    pub tells_pivot: bool,
     /// Whether a rule of the file asks about other shapes.
     pub asks: bool,
     /// Whether one asks about shapes of other lots.

@@ -116,6 +116,7 @@ impl Lowering<'_> {
             lowered.push(match (&arg.kind, self.word(arg)) {
                 (ExprKind::Name(name), _) if id.attribute_argument() == Some(index) => {
                     let attribute = self.attribute_name(*name);
+                    self.tells_pivot |= self.text(*name).starts_with("scope.");
                     Arg::Word(attribute.unwrap_or_else(|| self.shared(*name)))
                 }
                 (_, Some(word)) => Arg::Word(word),

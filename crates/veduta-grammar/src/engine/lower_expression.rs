@@ -61,7 +61,10 @@ impl Lowering<'_> {
             Some(Target::Local(slot)) => ExprKind::Slot(slot),
             Some(Target::Value { index, .. }) => self.defined(name, index, Vec::new()),
             Some(Target::Attribute) => match ShapeAttribute::named(self.text(name)) {
-                Some(attribute) => ExprKind::Attribute(attribute),
+                Some(attribute) => {
+                    self.tells_pivot |= attribute.tells_pivot();
+                    ExprKind::Attribute(attribute)
+                }
                 None => self.not_yet(name),
             },
             Some(Target::Function(_)) => self.function_call(name, &[]),
@@ -165,6 +168,7 @@ impl Lowering<'_> {
         }
         match Query::named(self.text(name)) {
             Some(query) => {
+                self.tells_pivot |= query == Query::Convert;
                 self.asks_place |= query == Query::Geographic;
                 self.asks |= query.is_about_others();
                 self.asks_beside |= query.is_about_others() && !is_within(&args);

@@ -53,10 +53,7 @@ pub fn properties(text: &str, folder: &str) -> Value {
     rows.sort();
     rows.dedup_by(|later, first| later[0] == first[0]);
     let values = rows.iter().flatten().map(|text| Value::text(text));
-    Value::Array(Arc::new(Array {
-        columns: 2,
-        values: values.collect(),
-    }))
+    Value::Array(Arc::new(Array::new(2, values.collect())))
 }
 
 fn statement(word: &str, rest: &str, folder: &str) -> Vec<[String; 2]> {

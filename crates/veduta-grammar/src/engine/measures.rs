@@ -252,7 +252,7 @@ fn parts(state: &State, kind: Kind) -> Value {
         _ if kind == Kind::Materials => vec![state.look.class.clone()],
         _ => vec!["".into()],
     };
-    Value::list(names.into_iter().map(Value::Text).collect())
+    Value::texts(names.into_iter().map(Value::Text).collect())
 }
 
 fn has_uvs(state: &State, args: &[Value]) -> bool {
@@ -264,7 +264,7 @@ fn has_uvs(state: &State, args: &[Value]) -> bool {
 
 fn tags_of(state: &State, mut tags: Tags) -> Value {
     tags.extend(state.all_tags());
-    Value::list(tags.into_iter().map(Value::Text).collect())
+    Value::texts(tags.into_iter().map(Value::Text).collect())
 }
 
 fn angle(mesh: &Mesh, args: &[Value]) -> Result<f64, String> {

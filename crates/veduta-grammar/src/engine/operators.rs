@@ -10,10 +10,7 @@ use super::value::{Array, Value};
 pub fn unary(op: UnaryOp, value: Value) -> Result<Value, String> {
     if let Value::Array(array) = &value {
         let values: Result<_, _> = array.values.iter().map(|v| unary(op, v.clone())).collect();
-        return Ok(Value::Array(Arc::new(Array {
-            columns: array.columns,
-            values: values?,
-        })));
+        return Ok(Value::Array(Arc::new(Array::new(array.columns, values?))));
     }
     let unusable = || format!("{} has no `{}`", value.kind(), op.sign());
     match op {
@@ -161,5 +158,5 @@ fn each(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
         _ => return Err(format!("`{}` needs an array", op.sign())),
     };
     let values: Vec<Value> = values?;
-    Ok(Value::Array(Arc::new(Array { columns, values })))
+    Ok(Value::Array(Arc::new(Array::new(columns, values))))
 }

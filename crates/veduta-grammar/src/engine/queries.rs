@@ -273,10 +273,7 @@ fn material(args: &[Value], state: &State) -> Value {
     let wanted = args.get(1).map(ToString::to_string);
     let pairs = materials::pairs(&state.look, wanted.as_deref() == Some("all"));
     let values = pairs.iter().flatten().map(|text| Value::text(text));
-    Value::Array(Arc::new(Array {
-        columns: 2,
-        values: values.collect(),
-    }))
+    Value::Array(Arc::new(Array::new(2, values.collect())))
 }
 
 /// How far the nearest scope is (m); infinite where there is none.

@@ -60,6 +60,8 @@ pub struct Run<'a> {
     pub(super) nested: usize,
     /// The node whose rule is at work.
     pub(super) at: u32,
+    /// Where in that rule 0 was taken for a value that is no number.
+    pub(super) zeroed: Vec<Span>,
     /// Where the current shape stands; None where no rule asks about other shapes.
     pub(super) trail: Option<Trail>,
     /// What the first of two passes collects.
@@ -139,6 +141,7 @@ impl<'a> Run<'a> {
             made: 0,
             nested: 0,
             at: 0,
+            zeroed: Vec::new(),
             trail: code.asks.then(Trail::default),
             recorded: None,
             around: Vec::new(),
@@ -220,6 +223,7 @@ impl<'a> Run<'a> {
             *trail = Trail::at(next.trail);
         }
         self.at = next.node;
+        self.zeroed.clear();
         let unfit = edit.and_then(|edit| self.set_values(edit, rule, &mut frame));
         let (waiting, first) = (self.waiting.len(), self.tree.nodes.len());
         let told = (self.tree.messages.len(), self.tree.reports.len());
@@ -297,14 +301,14 @@ impl<'a> Run<'a> {
         self.value(expr, &mut frame.scene())
     }
 
-    pub fn evaluate_number(&mut self, expr: &Expr, frame: &mut Frame) -> Result<f64, Fault> {
-        self.number(expr, &mut frame.scene())
+    pub fn evaluate_finite(&mut self, expr: &Expr, frame: &mut Frame) -> Result<f64, Fault> {
+        self.finite(expr, &mut frame.scene())
     }
 
     /// What `print` is given; what is beyond the most messages is dropped.
     pub(super) fn write(&mut self, value: &Value, span: Span) -> Result<(), Fault> {
         if self.tree.messages.len() < MOST_MESSAGES {
-            let text = value.written().map_err(|why| Fault::at(span, why))?;
+            let text = value.printed().map_err(|why| Fault::at(span, why))?;
             self.hold(text.len(), span)?;
             self.tree.messages.push(text);
         }

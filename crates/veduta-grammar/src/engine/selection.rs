@@ -118,7 +118,7 @@ impl Choosing {
         }
     }
 
-    /// The picked components as one shape along the axes of the whole; none where nothing is picked.
+    /// The picked components as one shape, along the axes of the first; none where nothing is picked.
     pub fn combined(&self, picked: &[usize]) -> Option<Form> {
         let parts: Vec<Mesh> = picked
             .iter()
@@ -130,7 +130,13 @@ impl Choosing {
         // What met in a corner still does.
         let near = TOLERANCE * self.form.scope.size.length();
         let all = joined(&parts.iter().collect::<Vec<_>>(), near);
-        Some(Form::around(all, self.form.scope.axes, false))
+        let axes = self.found[picked[0]].form.scope.axes;
+        Some(Form::around(all, axes, false))
+    }
+
+    /// Whether its components have pivots of their own.
+    pub fn has_pivots(&self) -> bool {
+        !matches!(self.kind, Kind::Groups | Kind::Materials)
     }
 }
 
@@ -277,7 +283,9 @@ impl Run<'_> {
         for (cell, picked) in cells.iter().zip(chosen) {
             if cell.combined {
                 if let Some(form) = choosing.combined(&picked) {
-                    let value = self.value_of_component(cell, form, (0, 1), scene)?;
+                    let place = Place { index: 0, total: 1 };
+                    let value =
+                        self.value_of_component(cell, form, choosing.has_pivots(), place, scene)?;
                     for at in picked {
                         values[at] = Some(value.clone());
                     }
@@ -287,7 +295,10 @@ impl Run<'_> {
             let total = picked.len();
             for (index, at) in picked.into_iter().enumerate() {
                 let form = choosing.found[at].form.clone();
-                values[at] = Some(self.value_of_component(cell, form, (index, total), scene)?);
+                let place = Place { index, total };
+                let value =
+                    self.value_of_component(cell, form, choosing.has_pivots(), place, scene)?;
+                values[at] = Some(value);
             }
         }
         let none = match values.iter().flatten().next() {
@@ -303,11 +314,14 @@ impl Run<'_> {
         &mut self,
         cell: &ComponentValue,
         form: Form,
-        (index, total): (usize, usize),
+        has_pivots: bool,
+        place: Place,
         scene: &mut Scene<'_>,
     ) -> Result<Value, Fault> {
-        let place = Place { index, total };
-        let state = scene.state.selected(form, place, cell.selector.name());
+        let mut state = scene.state.selected(form, place, cell.selector.name());
+        if self.code.tells_pivot && has_pivots {
+            state.pivot_here();
+        }
         let value = self.value(&cell.value, &mut scene.of(&state))?;
         if let Value::Array(_) = value {
             return Err(Fault::at(cell.value.span, "an array in an array"));

@@ -13,7 +13,7 @@ use super::value::Value;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShapeAttribute {
     ScopeSize(usize),
-    /// The place of the scope's origin from the pivot, which is the world until `setPivot`.
+    /// The place of the scope's origin from the pivot, in whose axes it is told.
     ScopePlace(usize),
     /// The turn of the scope about the pivot's axes, in degrees.
     ScopeTurn(usize),
@@ -24,6 +24,8 @@ pub enum ShapeAttribute {
     CompSelector,
     Material(&'static str),
     Seed,
+    /// A number of the shape's own, which hangs on its way from the start shape alone.
+    Own,
     Elevation,
     PivotPlace(usize),
     PivotTurn(usize),
@@ -35,7 +37,7 @@ pub enum ShapeAttribute {
 }
 
 /// All shape attributes by their names.
-const TABLE: [(&str, ShapeAttribute); 32] = {
+const TABLE: [(&str, ShapeAttribute); 33] = {
     use ShapeAttribute as A;
     [
         ("scope.sx", A::ScopeSize(0)),
@@ -53,6 +55,7 @@ const TABLE: [(&str, ShapeAttribute); 32] = {
         ("comp.total", A::CompTotal),
         ("comp.sel", A::CompSelector),
         ("seedian", A::Seed),
+        ("uid", A::Own),
         ("scope.elevation", A::Elevation),
         ("pivot.px", A::PivotPlace(0)),
         ("pivot.py", A::PivotPlace(1)),
@@ -89,18 +92,25 @@ impl ShapeAttribute {
         TABLE.iter().map(|entry| entry.0).chain(materials::names())
     }
 
-    /// The attribute of a shape now; `first` is the start shape.
-    pub fn of(self, state: &State, first: &Node) -> Value {
+    /// Whether it hangs on the pivot.
+    pub fn tells_pivot(self) -> bool {
+        matches!(
+            self,
+            Self::ScopePlace(_) | Self::ScopeTurn(_) | Self::PivotPlace(_) | Self::PivotTurn(_)
+        )
+    }
+
+    /// The attribute of a shape now; `first` is the start shape, and `path` gives the way from it.
+    pub fn of(self, state: &State, first: &Node, path: impl FnOnce() -> Vec<u32>) -> Value {
         let scope = &state.form.scope;
+        let (origin, axes) = pivot(state, first);
+        let object = &first.state.form.scope;
         match self {
             Self::ScopeSize(axis) => Value::Number(scope.size[axis]),
             Self::ScopePlace(axis) => {
-                let (origin, axes) = pivot(state);
                 Value::Number((axes.transpose() * (scope.origin - origin))[axis])
             }
-            Self::ScopeTurn(axis) => {
-                Value::Number(turn(pivot(state).1.transpose() * scope.axes, axis))
-            }
+            Self::ScopeTurn(axis) => Value::Number(turn(axes.transpose() * scope.axes, axis)),
             Self::SplitIndex => Value::Number(state.split.index as f64),
             Self::SplitTotal => Value::Number(state.split.total as f64),
             Self::CompIndex => Value::Number(state.comp.index as f64),
@@ -111,21 +121,34 @@ impl ShapeAttribute {
             }
             Self::Seed => Value::Number(f64::from(state.seed)),
             Self::Elevation => Value::Number(scope.origin.y),
-            Self::PivotPlace(axis) => Value::Number(pivot(state).0[axis]),
-            Self::PivotTurn(axis) => Value::Number(turn(pivot(state).1, axis)),
+            Self::Own => Value::Number(f64::from(number_of(&path()))),
+            Self::PivotPlace(axis) => {
+                Value::Number((object.axes.transpose() * (origin - object.origin))[axis])
+            }
+            Self::PivotTurn(axis) => Value::Number(turn(object.axes.transpose() * axes, axis)),
             Self::TrimLevel => Value::Bool(state.extra.as_ref().is_some_and(|e| e.trims_level)),
             Self::TrimSteep => Value::Bool(!state.extra.as_ref().is_some_and(|e| e.keeps_steep)),
             Self::StartName => Value::Text(first.name.clone()),
-            Self::StartPlace(axis) => Value::Number(first.state.form.scope.origin[axis]),
-            Self::StartTurn(axis) => Value::Number(turn(first.state.form.scope.axes, axis)),
+            Self::StartPlace(axis) => Value::Number(object.origin[axis]),
+            Self::StartTurn(axis) => Value::Number(turn(object.axes, axis)),
         }
     }
 }
 
-/// Origin and axes of a shape's pivot.
-fn pivot(state: &State) -> (DVec3, DMat3) {
+/// Origin and axes of a shape's pivot: of the start shape's scope, until the shape is taken apart or
+/// `setPivot` moves it.
+pub fn pivot(state: &State, first: &Node) -> (DVec3, DMat3) {
     let own = state.extra.as_ref().and_then(|extra| extra.pivot);
-    own.unwrap_or((DVec3::ZERO, DMat3::IDENTITY))
+    let object = &first.state.form.scope;
+    own.unwrap_or((object.origin, object.axes))
+}
+
+/// FNV-1a (Fowler, Noll, Vo) of a way through the tree.
+fn number_of(path: &[u32]) -> u32 {
+    let bytes = path.iter().flat_map(|place| place.to_le_bytes());
+    bytes.fold(0x811c_9dc5, |hash, byte| {
+        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+    })
 }
 
 /// The turn of axes about one of the frame that they are in (degrees).

@@ -235,7 +235,7 @@ fn off_in_ratio(scope: DVec3, size: DVec3, axes: &[usize], is_picture: bool) -> 
 fn listed(rated: &[Rated], given: &Value) -> Value {
     let names = rated.iter().map(|one| &one.name);
     if let Value::Array(_) = given {
-        return Value::list(names.map(|name| Value::Text(name.clone())).collect());
+        return Value::texts(names.map(|name| Value::Text(name.clone())).collect());
     }
     Value::text(&names.map(|name| format!("{name};")).collect::<String>())
 }

@@ -62,7 +62,7 @@ pub struct Extra {
     pub projections: [Option<TextureMap>; LAYERS],
     /// Where the texture lies, by layer; None is the shape's scope from 0 to 1.
     pub maps: [Option<TextureMap>; LAYERS],
-    /// Origin and axes of the pivot; None is the world.
+    /// Origin and axes of the pivot; None is that of the start shape.
     pub pivot: Option<(DVec3, DMat3)>,
     /// The planes of `trim`.
     pub trims: Vec<TrimPlane>,
@@ -113,6 +113,17 @@ impl State {
     /// What few shapes have, to be changed for this one.
     pub fn extra_mut(&mut self) -> &mut Extra {
         Arc::make_mut(self.extra.get_or_insert_default())
+    }
+
+    /// Puts the pivot where it is in a component: at its first corner, with the axes of its scope.
+    pub fn pivot_here(&mut self) {
+        let scope = self.form.scope;
+        let mesh = self.form.world_mesh();
+        let first = mesh.faces().next().and_then(|face| {
+            let ring = face.rings().next()?;
+            ring.first().map(|&corner| mesh.points[corner as usize])
+        });
+        self.extra_mut().pivot = Some((first.unwrap_or(scope.origin), scope.axes));
     }
 
     /// Changes where textures lie on the shape.

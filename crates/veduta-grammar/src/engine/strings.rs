@@ -1,6 +1,6 @@
 //! Functions of strings and of the names of files.
 
-use super::functions::{text, Function};
+use super::functions::{mapped, text, Function};
 use super::regexes;
 use super::value::{Value, MAX_ELEMENTS};
 
@@ -95,9 +95,19 @@ fn range(args: &[Value]) -> Result<Value, String> {
     Ok(Value::text(found.unwrap_or("")))
 }
 
-/// `isNull(value)`: values are always there.
-fn is_null(_: &[Value]) -> Result<Value, String> {
-    Ok(Value::Bool(false))
+/// The text that stands for a missing one.
+const MISSING: &str = "\u{e000}";
+
+/// `isNull(value)`: whether it is the number or the text that stands for a missing one; of an array
+/// for each of its elements.
+fn is_null(args: &[Value]) -> Result<Value, String> {
+    mapped(&args[0], |value| {
+        Ok(Value::Bool(match value {
+            Value::Number(number) => number.is_nan(),
+            Value::Text(text) => text.as_ref() == MISSING,
+            _ => false,
+        }))
+    })
 }
 
 /// `sel(text)`: the text as a selector.

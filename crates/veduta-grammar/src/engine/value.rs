@@ -15,14 +15,57 @@ pub enum Value {
     Array(Arc<Array>),
 }
 
+/// What an array holds, which is told where it has no elements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Kind {
+    #[default]
+    Numbers,
+    Truths,
+    Texts,
+}
+
 /// A table of values, row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Array {
     pub columns: usize,
     pub values: Vec<Value>,
+    pub kind: Kind,
 }
 
 impl Array {
+    /// An array that holds what its first element is; numbers, where it has none.
+    pub fn new(columns: usize, values: Vec<Value>) -> Self {
+        let kind = match values.first() {
+            Some(Value::Text(_)) => Kind::Texts,
+            Some(Value::Bool(_)) => Kind::Truths,
+            _ => Kind::Numbers,
+        };
+        Self {
+            columns,
+            values,
+            kind,
+        }
+    }
+
+    /// The array, which holds that where it has no elements.
+    pub fn or(self, kind: Kind) -> Self {
+        let kind = if self.values.is_empty() {
+            kind
+        } else {
+            self.kind
+        };
+        Self { kind, ..self }
+    }
+
+    /// What stands where it has no element.
+    pub fn none(&self) -> Value {
+        match self.kind {
+            Kind::Numbers => Value::Number(0.0),
+            Kind::Truths => Value::Bool(false),
+            Kind::Texts => Value::text(""),
+        }
+    }
+
     pub fn rows(&self) -> usize {
         self.values.len().checked_div(self.columns).unwrap_or(0)
     }
@@ -36,7 +79,13 @@ impl Value {
     /// An array of one row.
     pub fn list(values: Vec<Value>) -> Self {
         let columns = values.len();
-        Self::Array(Arc::new(Array { columns, values }))
+        Self::Array(Arc::new(Array::new(columns, values)))
+    }
+
+    /// An array of one row that holds texts, if any.
+    pub fn texts(values: Vec<Self>) -> Self {
+        let columns = values.len();
+        Self::Array(Arc::new(Array::new(columns, values).or(Kind::Texts)))
     }
 
     /// The elements of an array, the bytes of a string, 1 of others.
@@ -58,6 +107,33 @@ impl Value {
         }
     }
 
+    /// The value as `print` writes it: arrays with their size, those of several rows as a table
+    /// whose columns end below each other.
+    pub fn printed(&self) -> Result<String, String> {
+        let Self::Array(array) = self else {
+            return self.written();
+        };
+        if array.rows() <= 1 {
+            return Ok(format!("({}){}", array.values.len(), self.written()?));
+        }
+        let cells: Vec<String> = array.values.iter().map(Self::to_string).collect();
+        let mut widths = vec![0; array.columns];
+        for (at, cell) in cells.iter().enumerate() {
+            let width = &mut widths[at % array.columns];
+            *width = cell.chars().count().max(*width);
+        }
+        let mut text = Bounded(String::new());
+        let mut written = write!(text, "({}x{})", array.rows(), array.columns);
+        for row in cells.chunks(array.columns) {
+            written = written.and_then(|()| writeln!(text));
+            for (cell, width) in row.iter().zip(&widths) {
+                written = written.and_then(|()| write!(text, "   {cell:>width$}"));
+            }
+        }
+        let long = |_| format!("a string of more than {MAX_ELEMENTS} bytes");
+        written.map(|()| text.0).map_err(long)
+    }
+
     /// The name of the kind, for messages.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -76,6 +152,15 @@ impl Value {
             Self::Text(text) => text.trim().parse().ok(),
             Self::Array(_) => None,
         }
+    }
+
+    /// What `bool` makes of the value: of strings, `f`, `false` and what reads as 0 are false.
+    pub fn converted_truth(&self) -> Option<bool> {
+        let Self::Text(text) = self else {
+            return self.truth();
+        };
+        let is_false = matches!(text.as_ref(), "f" | "false") || self.number() == Some(0.0);
+        Some(!is_false)
     }
 
     /// The value as a condition: numbers other than 0 hold, and so does the string "true".
@@ -106,6 +191,7 @@ impl fmt::Write for Bounded {
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Number(number) if number.is_nan() => write!(f, "nan"),
             Self::Number(number) => write!(f, "{}", rounded(*number)),
             Self::Bool(is) => write!(f, "{is}"),
             Self::Text(text) => write!(f, "{text}"),

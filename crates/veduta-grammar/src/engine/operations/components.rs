@@ -62,14 +62,23 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         if !planes.is_empty() && !combined {
             let total = picked.len();
             for ((index, &at), shape) in picked.iter().enumerate().zip(shapes) {
-                let mut trimmed = whole.clone();
-                trimmed.extra_mut().trims = std::mem::take(&mut planes[at]);
                 let place = Place { index, total };
-                run_shape(run, body, shape, place, &trimmed, &selector.name(), frame)?;
+                let mut state = whole.selected(shape, place, selector.name());
+                state.extra_mut().trims = std::mem::take(&mut planes[at]);
+                run_component(run, body, state, frame)?;
             }
             continue;
         }
-        run_shapes(run, body, shapes, &whole, &selector.name(), frame)?;
+        let total = shapes.len();
+        for (index, shape) in shapes.into_iter().enumerate() {
+            let place = Place { index, total };
+            run_component(
+                run,
+                body,
+                whole.selected(shape, place, selector.name()),
+                frame,
+            )?;
+        }
     }
     frame.state = whole;
     frame.consumed();
@@ -96,20 +105,20 @@ pub fn run_shapes(
     let total = shapes.len();
     for (index, shape) in shapes.into_iter().enumerate() {
         let place = Place { index, total };
-        run_shape(run, body, shape, place, whole, name, frame)?;
+        run.run_cell(body, whole.selected(shape, place, name.clone()), frame)?;
     }
     Ok(())
 }
 
-/// Runs a cell's body on one of its shapes.
-fn run_shape(
+/// Runs a cell's body on a component, which has a pivot of its own.
+fn run_component(
     run: &mut Run<'_>,
     body: &Body,
-    form: Form,
-    place: Place,
-    whole: &State,
-    name: &Arc<str>,
+    mut state: State,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    run.run_cell(body, whole.selected(form, place, name.clone()), frame)
+    if run.code.tells_pivot {
+        state.pivot_here();
+    }
+    run.run_cell(body, state, frame)
 }

@@ -176,10 +176,7 @@ fn size(
     let Selector::Value(sizing, expr) = selector else {
         return Err(Fault::at(op.span, "a cell of a split begins with its size"));
     };
-    let number = run.evaluate_number(expr, frame)?;
-    if !number.is_finite() {
-        return Err(Fault::at(expr.span, format!("a size of {number} m")));
-    }
+    let number = run.evaluate_finite(expr, frame)?;
     Ok(match sizing {
         Sizing::Absolute => Size::Absolute(number),
         Sizing::Relative => Size::Relative(number),

@@ -279,7 +279,7 @@ fn length(
             return Err(Fault::at(operation.span, message));
         }
     };
-    let number = whole * run.evaluate_number(expr, frame)?;
+    let number = whole * run.evaluate_finite(expr, frame)?;
     if number.is_finite() {
         Ok(number)
     } else {
@@ -316,7 +316,7 @@ fn value(
     }
 }
 
-/// An array as finite numbers from 0 on, `count` of them.
+/// An array as numbers from 0 on, `count` of them; 0 stands for those without bounds.
 fn numbers(operation: &Operation, value: &Value, count: usize) -> Result<Vec<f64>, Fault> {
     let Value::Array(array) = value else {
         let message = format!("an array is needed, not {}", value.kind());
@@ -325,7 +325,8 @@ fn numbers(operation: &Operation, value: &Value, count: usize) -> Result<Vec<f64
     let found: Option<Vec<f64>> = array
         .values
         .iter()
-        .map(|value| value.number().filter(|n| n.is_finite() && *n >= 0.0))
+        .map(|value| value.number().filter(|n| *n >= 0.0 || n.is_nan()))
+        .map(|number| number.map(|n| if n.is_finite() { n } else { 0.0 }))
         .collect();
     match found {
         Some(found) if found.len() == count => Ok(found),

@@ -184,7 +184,7 @@ fn sections_of<'o>(
         let (depth, body) = written[cell.part];
         let mut state = whole.clone();
         state.split = Place { index, total };
-        let far = run.number(depth, &mut frame.scene().of(&state))?;
+        let far = run.finite(depth, &mut frame.scene().of(&state))?;
         if !(far.is_finite() && far >= 0.0) {
             let message = format!("a depth from 0 on is needed, not {far}");
             return Err(Fault::at(depth.span, message));

@@ -48,7 +48,7 @@ pub fn per_edge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
     for at in 0..edges.choosing.found.len() {
         let state = edges.choosing.state(&whole, at);
         let edge = &edges.choosing.found[at];
-        let distance = run.number(expr, &mut frame.scene().of(&state))?;
+        let distance = run.finite(expr, &mut frame.scene().of(&state))?;
         let distance = match sizing {
             Sizing::Relative => distance * edge.form.scope.size.x,
             _ => distance,

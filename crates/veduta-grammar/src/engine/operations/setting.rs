@@ -10,6 +10,7 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::materials;
 use super::super::run::Run;
+use super::super::shape_attributes::pivot;
 use super::super::value::Value;
 use super::transform::place;
 use crate::shape::Scope;
@@ -24,12 +25,15 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
     let Arg::Value(_, expr) = &op.args[1] else {
         return Err(Fault::at(op.span, "a value is needed"));
     };
-    let value = run.evaluate(expr, frame)?;
+    let mut value = run.evaluate(expr, frame)?;
     let attribute = run
         .code
         .globals
         .iter()
         .position(|global| global.name == *name);
+    if let (Value::Number(number), None) = (&value, attribute) {
+        value = Value::Number(run.without_bounds(*number, expr.span)?);
+    }
     match (name.as_ref(), attribute) {
         (_, Some(index)) => {
             let mut set = frame.state.set.take().map(Arc::unwrap_or_clone);
@@ -43,7 +47,9 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
             frame.state.extra_mut().keeps_steep = !value.truth().unwrap_or(true);
         }
         (scope, _) if scope.starts_with("scope.") => {
-            set_scope(scope, &value, frame).map_err(|message| Fault::at(expr.span, message))?
+            let pivot = pivot(&frame.state, run.first());
+            set_scope(scope, &value, pivot, frame)
+                .map_err(|message| Fault::at(expr.span, message))?
         }
         (property, _) => {
             let look = Arc::make_mut(&mut frame.state.look);
@@ -57,7 +63,12 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
 
 /// `scope.tx`, `scope.rx`, `scope.sx` and their like: what is in the scope goes with it. Places and
 /// turns are about the pivot.
-fn set_scope(name: &str, value: &Value, frame: &mut Frame) -> Result<(), String> {
+fn set_scope(
+    name: &str,
+    value: &Value,
+    (origin, axes): (DVec3, DMat3),
+    frame: &mut Frame,
+) -> Result<(), String> {
     let number = value.number().filter(|number| number.is_finite());
     let number = number.ok_or_else(|| format!("`{name}` is a finite number, not `{value}`"))?;
     let known = |text: &str| ["x", "y", "z"].iter().position(|one| *one == text);
@@ -68,8 +79,6 @@ fn set_scope(name: &str, value: &Value, frame: &mut Frame) -> Result<(), String>
         return Err(format!("`{name}` cannot be set"));
     };
     let mut scope: Scope = frame.state.form.scope;
-    let pivot = frame.state.extra.as_ref().and_then(|extra| extra.pivot);
-    let (origin, axes) = pivot.unwrap_or((DVec3::ZERO, DMat3::IDENTITY));
     match kind {
         "s" => scope.size[axis] = number.max(0.0),
         "t" => {

@@ -5,12 +5,12 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::{Run, MOST_MESSAGES};
 use super::super::value::Value;
-use super::word;
+use super::{value, word};
 
 /// `print(value)`
 pub fn print(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let text = word(run, op, 0, frame)?;
-    run.write(&Value::Text(text), op.span)
+    let value = value(run, op, 0, frame)?;
+    run.write(&value, op.span)
 }
 
 /// `report(key, value)`

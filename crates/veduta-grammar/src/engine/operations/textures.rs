@@ -217,7 +217,7 @@ fn tile(
     let Arg::Value(sizing, expr) = &op.args[index] else {
         return Err(Fault::at(op.span, "the size of a tile is needed"));
     };
-    let size = run.evaluate_number(expr, frame)?;
+    let size = run.evaluate_finite(expr, frame)?;
     let size = match sizing {
         Sizing::Absolute => size,
         Sizing::Relative => size * extent,

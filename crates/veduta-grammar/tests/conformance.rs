@@ -1,0 +1,72 @@
+//! What the reference says of missing values, of pivots, and of components put together.
+
+#![allow(clippy::unwrap_used)] // helpers of tests
+
+use crate::support::{areas, said, tree};
+
+#[test]
+fn zero_stands_for_what_is_no_number() {
+    let text = "const none = ln(-1)  attr height = none  isThere = !isNull(height)
+         Lot --> print(isThere) print(height) extrude(height) print(scope.sy) A";
+    let said = said(text);
+    assert_eq!(said[..2], ["false", "nan"]);
+    assert!(said[2].contains("in the rule Lot, 0 stands for a value that is NaN"));
+    assert_eq!(said[3], "0");
+    let text = "Lot --> split(x) { 1 / 0 : A. | ~1 : B. } ";
+    assert_eq!(areas(&tree(text), "A"), Vec::<f64>::new());
+    assert_eq!(areas(&tree(text), "B"), [60.0]);
+    // It is said once for each place, whatever the number of uses.
+    let many = "Lot --> set(scope.tx, 0 / 0) t(0 / 0, 0 / 0, 0) set(material.opacity, 1 / 0) A";
+    assert_eq!(crate::support::said(many).len(), 4);
+}
+
+#[test]
+fn functions_take_zero_for_it_too() {
+    let values = "print(floor(ln(-1))) print(pow(1 / 0, 2)) print(isnan(ln(-1)) && isinf(-1 / 0))";
+    assert_eq!(said(&format!("Lot --> {values}")), ["0", "0", "true"]);
+}
+
+#[test]
+fn empty_arrays_know_what_they_hold() {
+    let values = "print(\"<\" + stringArray[0] + \">\") print(boolArray[3]) print(floatArray[-1]) \
+                  print(\"<\" + [stringArray, stringArray][0] + \">\") print([\"a\"][[false]][0] + \"|\")";
+    assert_eq!(
+        said(&format!("Lot --> {values}")),
+        ["<>", "false", "0", "<>", "|"]
+    );
+}
+
+#[test]
+fn strings_go_on_over_lines() {
+    let text = "Lot --> print(\"one\n  two\") print(\"\\u00e9\\u12\")  # a \" in a comment";
+    assert_eq!(said(text), ["one\n  two", "\u{e9}\\u12"]);
+}
+
+#[test]
+fn pivots_stand_at_first_corners() {
+    let places = "print(scope.tx) print(scope.ty) print(scope.rx)";
+    // The front is 10 m long: its own pivot is its first corner.
+    let text = format!(
+        "Lot --> t(3, 0, 0) print(scope.tx) extrude(4) comp(f) {{ front : Front | all : NIL }}
+         Front --> {places} split(x) {{ 2 : NIL | ~1 : print(scope.tx) Upper }}
+         Upper --> t(0, 1, 0) print(scope.ty) print(pivot.px) print(pivot.pz)"
+    );
+    assert_eq!(said(&text), ["3", "0", "0", "0", "2", "1", "3", "6"]);
+}
+
+#[test]
+fn components_put_together_have_the_axes_of_the_first() {
+    let text =
+        "Lot --> extrude(4) comp(f) { top = t(0, 0, 2) print(scope.elevation) A. | all : NIL }";
+    assert_eq!(said(text), ["6"]);
+}
+
+#[test]
+fn each_shape_has_a_number_of_its_own() {
+    let text = "Lot --> print(uid) split(x) { { 2 : A }* }  A --> print(uid)";
+    let mut numbers = said(text);
+    assert_eq!(numbers, said(text));
+    numbers.sort();
+    numbers.dedup();
+    assert_eq!(numbers.len(), 6);
+}
