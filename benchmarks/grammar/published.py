@@ -76,8 +76,8 @@ NOTES = (
     " old (`uid`) that is known now, and was not tried again. Before any mending 64 of all 87"
     " derived (74 %); today 83 (95 %).",
     "Of the values that the reference prints beside its examples of functions 231 of 276 (84 %)"
-    " came out when they were tried first; wrong were missing values, `setElems`, `findFirst` with a"
-    " tolerance, `*` in lists, rows of `sortIndices`, texts in `sum` and `max`, truths of texts.",
+    " came out when they were tried first; wrong were missing values, `setElems`, `findFirst` with"
+    " a tolerance, `*` in lists, rows of `sortIndices`, texts in `sum` and `max`, truths of texts.",
     "What was mended: rules of imports that the importing file tells otherwise (`lib.Rule -->"
     " ...`), imports from `rules/` without a project, leaves in lower case, `streetSide` and"
     " `noStreetSide`, cells of `split` without a size, `#rgb`, `material.color.a`, a texture as"
