@@ -15,7 +15,7 @@ import { createRequire } from "node:module";
 const ahead = process.argv.includes("--ahead");
 const [studio, address, picture] = process.argv.slice(2).filter((word) => word !== "--ahead");
 const { chromium } = createRequire(`${studio}/package.json`)("playwright-core");
-const PATIENCE_MS = 200_000;
+const PATIENCE_MS = 900_000;
 const NEAR = 0.08;
 /** So long after a key position what is next on the way is read. */
 const READ = 0.5;
