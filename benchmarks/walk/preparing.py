@@ -80,8 +80,8 @@ def main() -> None:
     rows: list[Row] = []
     if not called.play:
         rows.append(prepare(called.folder, called.keys, called.width_px))
-    walk = called.folder if called.play else called.folder / "walk"
         print(rows[-1], flush=True)  # playing may fail
+    walk = called.folder if called.play else called.folder / "walk"
     rows.append(play(called.folder.name, walk, called.picture, ahead=called.ahead))
     notes = [
         "Three views at each key position, joined to mosaics; 3 m from one to the next. One"
