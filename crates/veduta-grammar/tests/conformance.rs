@@ -62,6 +62,19 @@ fn components_put_together_have_the_axes_of_the_first() {
 }
 
 #[test]
+fn a_text_can_name_an_attribute() {
+    let text = "channel(name) = \"material.color.\" + name  attr height = 1
+         Lot --> set(sel(channel(\"r\")), 0.5) print(material.color.r)
+                 set(sel(\"height\"), 7) print(height) A";
+    assert_eq!(said(text), ["0.5", "7"]);
+    let none = crate::support::fault("Lot --> set(sel(\"scope.elevation\"), 1) A");
+    assert!(
+        none.contains("`scope.elevation` is no attribute that can be set"),
+        "{none}"
+    );
+}
+
+#[test]
 fn each_shape_has_a_number_of_its_own() {
     let text = "Lot --> print(uid) split(x) { { 2 : A }* }  A --> print(uid)";
     let mut numbers = said(text);

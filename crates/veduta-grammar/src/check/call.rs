@@ -150,9 +150,14 @@ impl Checker<'_> {
         let Some(first) = call.args().first() else {
             return;
         };
-        let ExprKind::Name(name) = &first.kind else {
-            let message = "`set` takes the name of an attribute";
-            return self.diagnostics.error(first.span, message);
+        let name = match &first.kind {
+            ExprKind::Name(name) => name,
+            // Which attribute a text names, shows when it is evaluated.
+            ExprKind::Call { name, .. } if self.text(name) == "sel" => return,
+            _ => {
+                let message = "`set` takes the name of an attribute";
+                return self.diagnostics.error(first.span, message);
+            }
         };
         let is_attribute = match self.targets.get(&name.span.start) {
             Some(Target::Value { unit, index }) => {

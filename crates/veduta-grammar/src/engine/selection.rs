@@ -223,6 +223,7 @@ impl Run<'_> {
                 match value {
                     Value::Bool(is) => Ok(is),
                     Value::Number(index) => Ok(is_index(index, choosing, at)),
+                    Value::Text(word) => self.is_meant(choosing, &word, at, expr.span),
                     other => {
                         let message = format!("{} selects no component", other.kind());
                         Err(Fault::at(expr.span, message))

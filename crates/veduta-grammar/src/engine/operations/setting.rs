@@ -13,15 +13,20 @@ use super::super::run::Run;
 use super::super::shape_attributes::pivot;
 use super::super::value::Value;
 use super::transform::place;
+use super::word;
+use crate::builtins::attributes;
 use crate::shape::Scope;
 
 /// `set(name, value)`: a material's property, the place, turn or size of the scope, or an attribute of
 /// the rule file for this shape and its children; `material.name` says what the surface is in the
 /// model.
 pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let Arg::Word(name) = &op.args[0] else {
-        return Err(Fault::at(op.span, "the name of an attribute is needed"));
-    };
+    let name = word(run, op, 0, frame)?;
+    let is_own = run.code.globals.iter().any(|global| global.name == name);
+    if matches!(op.args[0], Arg::Value(..)) && !is_own && !attributes::is_settable(&name) {
+        let message = format!("`{name}` is no attribute that can be set");
+        return Err(Fault::at(op.span, message));
+    }
     let Arg::Value(_, expr) = &op.args[1] else {
         return Err(Fault::at(op.span, "a value is needed"));
     };
@@ -30,7 +35,7 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         .code
         .globals
         .iter()
-        .position(|global| global.name == *name);
+        .position(|global| global.name == name);
     if let (Value::Number(number), None) = (&value, attribute) {
         value = Value::Number(run.without_bounds(*number, expr.span)?);
     }
