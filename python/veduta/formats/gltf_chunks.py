@@ -43,9 +43,17 @@ class Glb:
     root: dict[str, Any]
     content: bytes
 
+    def one(self, kind: str, number: Any) -> dict[str, Any]:
+        """What a number refers to in a list of the document; ValueError where it is not there."""
+        every = self.root[kind]
+        if type(number) is not int or not 0 <= number < len(every):
+            raise ValueError(f"{json.dumps(number)[:60]} is none of its {len(every)} {kind}")
+        found: dict[str, Any] = every[number]
+        return found
+
     def view(self, number: int) -> bytes:
         """The bytes of a buffer view; ValueError where it lies outside."""
-        view = self.root["bufferViews"][number]
+        view = self.one("bufferViews", number)
         start, size = int(view["byteOffset"]), int(view["byteLength"])
         if start < 0 or size < 0 or start + size > len(self.content):
             raise ValueError(f"buffer view {number} lies outside of the file")
@@ -53,7 +61,7 @@ class Glb:
 
     def array(self, number: int) -> NDArray[Any]:
         """An accessor as (n,) or (n, width); ValueError where it does not fill its view."""
-        accessor = self.root["accessors"][number]
+        accessor = self.one("accessors", number)
         width = _WIDTHS[accessor["type"]]
         dtype = np.dtype(_DTYPES[accessor["componentType"]])
         count = int(accessor["count"])

@@ -66,7 +66,7 @@ def part_of(glb: Glb) -> Part:
         seen = glb.array(attributes["TEXCOORD_0"]) if "TEXCOORD_0" in attributes else flat
         uv.append(seen[corners])
         features.append(glb.array(attributes["_FEATURE_ID_0"])[corners][::3].astype(np.int32))
-        row = row_of[primitive["material"]]
+        row = row_in(row_of, primitive["material"])
         materials.append(np.full(len(corners) // 3, row, dtype=np.int32))
     count = sum(len(rows) for rows in features)
     table = features_of(extras["features"])
@@ -109,7 +109,7 @@ def _instances(glb: Glb, features: int, row_of: list[int]) -> Instances | None:
         groups.append(
             InstanceGroup(
                 mesh=names.index(mesh["name"]),
-                materials=tuple(row_of[piece["material"]] for piece in mesh["primitives"]),
+                materials=tuple(row_in(row_of, one["material"]) for one in mesh["primitives"]),
                 part_from_mesh=part_placement(*place),
                 feature=feature,
             )
@@ -198,13 +198,20 @@ def looks_of(glb: Glb) -> tuple[tuple[Material, ...], list[int]]:
     return found, [at[id(entry)] for entry in plain]
 
 
+def row_in(row_of: list[int], number: Any) -> int:
+    """The row of a material of the file; ValueError where the file has none of this number."""
+    if type(number) is not int or not 0 <= number < len(row_of):
+        raise ValueError("a surface names a material that is not there")
+    return row_of[number]
+
+
 def _plain(glb: Glb, number: int) -> dict[str, Any]:
     """What tells the look of a material: itself, or the one that it looks like."""
-    entry: dict[str, Any] = glb.root["materials"][number]
-    like = entry.get("extras", {}).get("veduta", {}).get(LOOKS_LIKE)
-    if like is None:
+    entry = glb.one("materials", number)
+    told = entry.get("extras", {}).get("veduta", {})
+    if LOOKS_LIKE not in told:
         return entry
-    first: dict[str, Any] = glb.root["materials"][like]
+    first = glb.one("materials", told[LOOKS_LIKE])
     if LOOKS_LIKE in first.get("extras", {}).get("veduta", {}):
         raise ValueError(f"material {number} looks like one that looks like another")
     return first
@@ -217,7 +224,7 @@ def material_of(glb: Glb, entry: dict[str, Any]) -> Material:
     colour: Colour = (red, green, blue)
     texture = None
     if "baseColorTexture" in shading:
-        source = glb.root["textures"][shading["baseColorTexture"]["index"]]["source"]
+        source = glb.one("textures", shading["baseColorTexture"]["index"])["source"]
         pixels = _pixels(glb, source, "RGB")
         cut = entry.get("alphaMode") == "MASK"
         texture = Texture(pixels=pixels, invented=_invented(glb, entry, pixels), cut=cut)
@@ -249,7 +256,7 @@ def _glow(entry: dict[str, Any]) -> float:
 
 
 def _pixels(glb: Glb, number: int, mode: str) -> NDArray[np.uint8]:
-    image = Image.open(io.BytesIO(glb.view(glb.root["images"][number]["bufferView"])))
+    image = Image.open(io.BytesIO(glb.view(glb.one("images", number)["bufferView"])))
     if image.width * image.height > LARGEST_PIXELS:
         raise ValueError(f"image {number} is {image.width} x {image.height} pixels")
     return np.asarray(image.convert(mode), dtype=np.uint8)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
-from veduta.formats.gltf_read import features_of, looks_of, part_of
+from veduta.formats.gltf_read import features_of, looks_of, part_of, row_in
 from veduta.formats.mesh_glb import Y_UP
 from veduta.imaging.srgb import srgb_of_linear
 from veduta.place.mesh import Mesh
@@ -46,7 +46,7 @@ def _mesh(glb: Glb) -> Mesh:
     ).reshape(-1, 3)
     looks, row_of = looks_of(glb)
     material = np.repeat(
-        [row_of[primitive["material"]] for primitive in shape["primitives"]],
+        [row_in(row_of, primitive["material"]) for primitive in shape["primitives"]],
         [len(own) // 3 for own in corners],
     )
     skin = _skin(glb, joined)

@@ -16,6 +16,7 @@ from sample_document import sample_document, sample_photo
 
 from veduta.facade.model import build_part
 from veduta.formats.gltf import glb_bytes, read_glb, write_glb
+from veduta.formats.gltf_bin import glb_container
 from veduta.formats.mesh_glb import mesh_glb_bytes
 from veduta.formats.mesh_glb_read import read_model
 from veduta.place.builder import PartBuilder
@@ -24,6 +25,7 @@ from veduta.place.material import Material
 from veduta.place.mesh import Mesh
 from veduta.place.part import Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
+from veduta.run.errors import InputError
 
 KINDS = ("part", "mesh", "forest")
 
@@ -207,3 +209,42 @@ def test_what_looks_alike_is_one_material_again(tmp_path: Path) -> None:
     assert trees is not None
     assert trees.groups[0].materials == (0,)
     assert trees.meshes[0].slots == ("ground",)
+
+
+NO_NUMBERS = (-1, 99, 10**400, 0.0, True, None, "0", [0], {"0": 0})
+"""What another program may write where the number of a material belongs."""
+
+
+def refused(path: Path, root: dict[str, Any], chunk: bytes) -> bool:
+    """Whether the file is refused with its name."""
+    path.write_bytes(glb_container(root, chunk))
+    try:
+        read_model(path)
+    except InputError as error:
+        return path.name in str(error)
+    return False
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_looks_like_a_material_that_is_not_there_is_refused(kind: str, tmp_path: Path) -> None:
+    root, chunk = opened(written(kind)[1])
+    path = tmp_path / "of another.glb"
+    number, told = next(
+        (number, one["extras"]["veduta"])
+        for number, one in enumerate(root["materials"])
+        if "looks_like" in one.get("extras", {}).get("veduta", {})
+    )
+    assert not refused(path, root, chunk)
+    for wrong in (*NO_NUMBERS, number):  # itself looks like another already
+        told["looks_like"] = wrong
+        assert refused(path, root, chunk), wrong
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_surface_of_a_material_that_is_not_there_is_refused(kind: str, tmp_path: Path) -> None:
+    root, chunk = opened(written(kind)[1])
+    path = tmp_path / "of another.glb"
+    piece = root["meshes"][-1]["primitives"][0]
+    for wrong in NO_NUMBERS:
+        piece["material"] = wrong
+        assert refused(path, root, chunk), wrong
