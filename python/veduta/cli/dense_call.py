@@ -13,6 +13,7 @@ from veduta.cli.run_arguments import Force, Out, Quiet
 from veduta.dense.options import (
     DenseOptions,
     DepthOptions,
+    FormatOptions,
     ModelOptions,
     RandomOptions,
     SurfaceOptions,
@@ -55,6 +56,7 @@ class DenseCall:
     depth: DepthOptions = field(default_factory=DepthOptions)
     surface: SurfaceOptions = field(default_factory=SurfaceOptions)
     city: ModelOptions = field(default_factory=ModelOptions)
+    formats: FormatOptions = field(default_factory=FormatOptions)
     random: RandomOptions = field(default_factory=RandomOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     device: DeviceOptions = field(default_factory=DeviceOptions)
@@ -68,6 +70,7 @@ class DenseCall:
             depth=self.depth,
             surface=self.surface,
             city=self.city,
+            formats=self.formats,
             random=self.random,
             scale=self.scale,
             device=self.device,

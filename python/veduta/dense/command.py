@@ -42,6 +42,7 @@ from veduta.dense.telling import (
     tell_result,
     tell_standing,
 )
+from veduta.dense.workspace import write_colmap
 from veduta.dense.writing import write_cloud, write_depths, write_place
 from veduta.place.mesh import Mesh
 from veduta.run.card import Engine, choose_engine
@@ -143,6 +144,8 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     with work.step("depth files"):
         pictures = write_depths(work, views, comparisons, depth_map)
     cloud = _cloud(work, views, comparisons, depth_map, options, parameters)
+    if options.formats.colmap:
+        write_colmap(work, views, sparse, pictures, depth_map)
     lenses = Lenses(views.cameras, parameters.match.window_px)
     write_maps_of(work, cloud, given.cameras, given.walls, lenses, parameters.elevation)
     tints = None

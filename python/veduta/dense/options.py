@@ -94,6 +94,17 @@ class ModelOptions(Options):
     )
 
 
+class FormatOptions(Options):
+    """What is written beside the result."""
+
+    colmap: bool = Field(
+        default=False,
+        description=(
+            "a workspace of COLMAP, too: photos, cameras, maps of depths and normals, and the cloud"
+        ),
+    )
+
+
 class RandomOptions(Options):
     """What is drawn at random."""
 
@@ -109,6 +120,7 @@ class DenseOptions(Options):
     depth: DepthOptions = DepthOptions()
     surface: SurfaceOptions = SurfaceOptions()
     city: ModelOptions = ModelOptions()
+    formats: FormatOptions = FormatOptions()
     random: RandomOptions = RandomOptions()
     scale: ScaleOptions = ScaleOptions()
     device: DeviceOptions = DeviceOptions()
