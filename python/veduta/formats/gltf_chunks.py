@@ -21,6 +21,8 @@ BROKEN = (
     struct.error, OSError, RecursionError,
 )  # fmt: skip
 """What a file that is not as it should be raises."""
+MOST_ROWS = 2**24
+"""As far as single precision counts."""
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
 _DTYPES = {5126: np.float32, 5125: np.uint32, 5123: np.uint16, 5121: np.uint8}
@@ -86,3 +88,10 @@ def glb_chunks(data: bytes) -> Glb:
         raise ValueError("the second chunk is not binary")
     first = start + size + _CHUNK.size
     return Glb(root, data[first : first + size_bin])
+
+
+def feature_rows(column: NDArray[Any]) -> NDArray[np.int32]:
+    """Rows of the feature table, which glTF has as floats; ValueError where one is no number."""
+    if not np.isfinite(column).all() or (np.abs(column) > MOST_ROWS).any():
+        raise ValueError("the row of a feature is no number")
+    return column.astype(np.int32)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
+from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, feature_rows, glb_chunks, glb_content
 from veduta.formats.gltf_instances import INSTANCING, part_placement
 from veduta.formats.gltf_materials import LOOKS_LIKE
 from veduta.formats.gltf_movers_read import mover_nodes, pivot_of, read_mover
@@ -65,7 +65,7 @@ def part_of(glb: Glb) -> Part:
         flat = np.zeros((len(points), 2), dtype=np.float32)
         seen = glb.array(attributes["TEXCOORD_0"]) if "TEXCOORD_0" in attributes else flat
         uv.append(seen[corners])
-        features.append(glb.array(attributes["_FEATURE_ID_0"])[corners][::3].astype(np.int32))
+        features.append(feature_rows(glb.array(attributes["_FEATURE_ID_0"])[corners][::3]))
         row = row_in(row_of, primitive["material"])
         materials.append(np.full(len(corners) // 3, row, dtype=np.int32))
     count = sum(len(rows) for rows in features)
@@ -124,7 +124,7 @@ def _groups(glb: Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list[
         if INSTANCING in node.get("extensions", {}):
             told = node["extensions"][INSTANCING]["attributes"]
             place = [glb.array(told[name]) for name in ("TRANSLATION", "ROTATION", "SCALE")]
-            feature = glb.array(told["_FEATURE_ID_0"]).astype(np.int32)
+            feature = feature_rows(glb.array(told["_FEATURE_ID_0"]))
             yield glb.root["meshes"][node["mesh"]], feature, place
         elif node.get("extras", {}).get("veduta", {}).get("instances"):
             children = [nodes[number] for number in node["children"]]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
+from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, feature_rows, glb_chunks, glb_content
 from veduta.formats.gltf_read import features_of, looks_of, part_of, row_in
 from veduta.formats.mesh_glb import Y_UP
 from veduta.imaging.srgb import srgb_of_linear
@@ -56,7 +56,7 @@ def _mesh(glb: Glb) -> Mesh:
         triangles=triangles.astype(np.uint32),
         features=features_of(told["features"]),
         materials=looks,
-        triangle_feature=joined["_FEATURE_ID_0"][triangles[:, 0]].astype(np.int32),
+        triangle_feature=feature_rows(joined["_FEATURE_ID_0"][triangles[:, 0]]),
         triangle_material=material.astype(np.int32),
         normals=joined["NORMAL"],
         uv=joined.get("TEXCOORD_0"),

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 from faulty_records import RECORDS
 from PIL import Image
-from place_sample import sample_place
+from place_sample import ball, open_door, posts, sample_place
 from sample_document import sample_document
 from sample_plan import sample_plan, sample_storey
 
@@ -25,6 +27,8 @@ from veduta.fauna.path.ground import ground_of
 from veduta.fauna.read.midlines import read_midlines
 from veduta.formats.dae_read import read_dae_mesh
 from veduta.formats.glb_mesh import read_glb_mesh
+from veduta.formats.gltf import glb_bytes
+from veduta.formats.mesh_glb import mesh_glb_bytes
 from veduta.formats.ply import read_points, write_points
 from veduta.grammar.lots import read_lots
 from veduta.grammar.terrain import read_terrain
@@ -123,6 +127,25 @@ def _picture(suffix: str) -> Callable[[Path], Path]:
     return write
 
 
+def _heic(folder: Path) -> Path:
+    """One of the photos of telephones in `$VEDUTA_DATA`: nothing here writes HEIC."""
+    given = os.environ.get("VEDUTA_DATA")
+    data = Path(given) if given else Path(__file__).parents[4] / "shared" / "data"
+    photos = sorted((data / "cases/photos/heic_mixed").glob("*.HEIC"))
+    if not photos:
+        raise FileNotFoundError(f"no cases/photos/heic_mixed in {data}: set VEDUTA_DATA")
+    shutil.copyfile(photos[0], folder / "photo.heic")
+    return folder / "photo.heic"
+
+
+def _model(content: Callable[[], bytes]) -> Callable[[Path], Path]:
+    def write(folder: Path) -> Path:
+        (folder / "model.glb").write_bytes(content())
+        return folder / "model.glb"
+
+    return write
+
+
 def _cloud(folder: Path) -> Path:
     points = np.random.default_rng(7).normal(size=(40, 3))
     write_points(points, np.full((40, 3), 90, dtype=np.uint8), folder / "cloud.ply")
@@ -181,6 +204,9 @@ def _mat(folder: Path) -> Path:
 
 CLASSES: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object]]] = {
     "glTF": (_place_file(".glb"), veduta.load),
+    "GLB with instances": (_model(lambda: glb_bytes(posts())), veduta.load),
+    "GLB with a mover": (_model(lambda: glb_bytes(open_door())), veduta.load),
+    "GLB of a mesh": (_model(lambda: mesh_glb_bytes(ball())), veduta.load),
     "OBJ": (_place_file(".obj"), veduta.load),
     "STL": (_place_file(".stl"), veduta.load),
     "COLLADA": (_place_file(".dae"), read_dae_mesh),
@@ -205,6 +231,7 @@ CLASSES: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object]]] = {
     "JPEG": (_picture(".jpg"), read_image),
     "TIFF": (_picture(".tif"), read_image),
     "WebP": (_picture(".webp"), read_image),
+    "HEIC": (_heic, read_image),
     "GLB of others": (_place_file(".glb"), read_glb_mesh),
     "LAS": (_las(".las"), read_las),
     "LAZ": (_las(".laz"), read_las),

@@ -248,3 +248,15 @@ def test_a_surface_of_a_material_that_is_not_there_is_refused(kind: str, tmp_pat
     for wrong in NO_NUMBERS:
         piece["material"] = wrong
         assert refused(path, root, chunk), wrong
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("row", [np.nan, np.inf, 1e30, -1.0, 99.0])
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_row_that_is_not_in_the_table_is_refused(kind: str, row: float, tmp_path: Path) -> None:
+    root, chunk = opened(written(kind)[1])
+    told = root["accessors"][root["meshes"][0]["primitives"][0]["attributes"]["_FEATURE_ID_0"]]
+    start = root["bufferViews"][told["bufferView"]]["byteOffset"]
+    rows = np.full(told["count"], row, dtype="<f4").tobytes()
+    wrong = chunk[:start] + rows + chunk[start + len(rows) :]
+    assert refused(tmp_path / "of another.glb", root, wrong)

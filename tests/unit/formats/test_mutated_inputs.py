@@ -25,7 +25,10 @@ MOST_BYTES = 500 * 2**20
 @pytest.mark.parametrize("kind", CLASSES)
 def test_a_reader_gives_a_result_or_a_reason(kind: str, tmp_path: Path) -> None:
     write, read = CLASSES[kind]
-    path = write(tmp_path)
+    try:
+        path = write(tmp_path)
+    except FileNotFoundError as error:  # a kind whose sound files are real data
+        pytest.skip(str(error))
     sound = path.read_bytes()
     read(path)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
