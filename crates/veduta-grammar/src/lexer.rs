@@ -78,7 +78,7 @@ fn string_length(bytes: &[u8], over_lines: bool) -> Option<usize> {
 }
 
 /// Longest first, as a prefix of one word may be another.
-const SIGNS: [(&str, TokenKind); 33] = {
+const SIGNS: [(&str, TokenKind); 34] = {
     use TokenKind::*;
     [
         ("-->", Arrow),
@@ -90,6 +90,7 @@ const SIGNS: [(&str, TokenKind); 33] = {
         ("&&", And),
         ("||", Or),
         ("->", Unknown),
+        ("=:", AssignEach),
         ("=", Assign),
         (":", Colon),
         (";", Semicolon),

@@ -256,12 +256,12 @@ impl Printer<'_> {
                 Cell::Part {
                     selector,
                     depth,
-                    combined,
+                    joining,
                     body,
                     ..
                 } => {
                     self.expr(selector, Place::NoBranches);
-                    self.word(if *combined { "=" } else { ":" });
+                    self.word(joining.sign());
                     if let Some(depth) = depth {
                         self.expr(depth, Place::NoBranches);
                         self.word(":");

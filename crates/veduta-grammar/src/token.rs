@@ -23,6 +23,8 @@ pub enum TokenKind {
     Define,
     /// `=`
     Assign,
+    /// `=:`
+    AssignEach,
     Colon,
     Semicolon,
     Comma,
@@ -95,6 +97,7 @@ impl TokenKind {
             TokenKind::Arrow => "`-->`",
             TokenKind::Define => "`:=`",
             TokenKind::Assign => "`=`",
+            TokenKind::AssignEach => "`=:`",
             TokenKind::Colon => "`:`",
             TokenKind::Semicolon => "`;`",
             TokenKind::Comma => "`,`",

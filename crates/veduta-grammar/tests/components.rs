@@ -65,3 +65,53 @@ fn values_of_components() {
     );
     assert_eq!(value("front = geometry.area"), ["[0,0,40,0,0,0]"]);
 }
+
+#[test]
+fn what_hangs_together_becomes_one_shape() {
+    let of = |cells: &str| {
+        said(&format!(
+            "Lot --> extrude(4) comp(f) {{ {cells} }}
+             C --> print(comp.sel + \" \" + comp.index + \" \" + comp.total + \" \" + geometry.area) C."
+        ))
+    };
+    // The sides go round; top and bottom have no edge in common.
+    assert_eq!(of("side =: C"), ["side 0 1 128"]);
+    assert_eq!(
+        of("horizontal =: C"),
+        ["horizontal 0 2 60", "horizontal 1 2 60"]
+    );
+    assert_eq!(of("horizontal = C"), ["horizontal 0 1 120"]);
+    // Front and right meet in an edge, the back stands alone.
+    assert_eq!(
+        of("front || right || top =: C | all =: C"),
+        [" 0 1 124", "all 0 1 124"]
+    );
+    assert_eq!(
+        of("left || right =: C | front || back : C"),
+        [" 0 2 24", " 1 2 24", " 0 2 40", " 1 2 40"]
+    );
+}
+
+#[test]
+fn faces_that_meet_in_a_corner_do_not_hang_together() {
+    let text = "Lot --> s(2, 0, 2) split(x) { 1 : split(z) { 1 : A. | 1 : NIL } | 1 : split(z) { 1 : NIL | 1 : A. } }";
+    let inlined = format!("{text} Start --> inline Lot comp(f) {{ all =: print(comp.total) NIL }}");
+    let inlined = inlined.replace("Start -->", "@StartRule Start -->");
+    assert_eq!(said(&inlined), ["2", "2"]);
+}
+
+#[test]
+fn edges_hang_together_by_their_ends() {
+    let text = |selector: &str| {
+        format!(
+            "Lot --> comp(e) {{ {selector} =: print(comp.total + \" \" + scope.sx + \" \" + scope.sy) NIL }}"
+        )
+    };
+    assert_eq!(said(&text("all")), ["1 10 6"]);
+    assert_eq!(
+        said(&text("object.left || object.right")),
+        ["2 6 0", "2 6 0"]
+    );
+    let values = "Lot --> extrude(4) print(str(comp(f) { horizontal =: geometry.area | all =: comp.total }))";
+    assert_eq!(said(values), ["[60,60,1,1,1,1]"]);
+}

@@ -83,3 +83,34 @@ fn each_shape_has_a_number_of_its_own() {
     numbers.dedup();
     assert_eq!(numbers.len(), 6);
 }
+
+#[test]
+fn the_seed_can_be_set() {
+    let text = "A --> split(x) { { 1 : B }* }  B --> C C  C --> print(rand()) NIL";
+    let of = |start: &str| said(&format!("Lot --> {start} {text}"));
+    let whole = |draws: Vec<String>| -> Vec<String> { draws[..20].to_vec() };
+    let seven = of("set(seedian, 7) A");
+    // What came before in the rule does not matter, nor where it stands.
+    assert_eq!(seven, of("[ t(1, 0, 0) D ] set(seedian, 7) A"));
+    assert_eq!(seven, of("rotateScope(0, 0, 0) [ [ set(seedian, 7) A ] ]"));
+    assert_ne!(seven, of("set(seedian, 8) A"));
+    assert_ne!(seven, of("A"));
+    // After brackets and cells all is as before.
+    assert_eq!(
+        of("print(rand()) A"),
+        of("print(rand()) [ set(seedian, 3) NIL ] A")
+    );
+    assert_eq!(
+        whole(of("[ set(seedian, 7) A ] [ set(seedian, 7) A ]")),
+        seven
+    );
+    assert_eq!(
+        said(
+            "Lot --> set(seedian, 7) print(seedian) [ set(seedian, 2.5) A ] print(seedian) B
+              A --> print(seedian)"
+        ),
+        ["7", "7", "2.5"]
+    );
+    let none = crate::support::fault("Lot --> set(seedian, \"a\") A");
+    assert!(none.contains("`seedian` is a number, not `a`"), "{none}");
+}

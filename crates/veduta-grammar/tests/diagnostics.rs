@@ -74,7 +74,7 @@ fn statements_that_do_not_parse() {
         ("A.b --> NIL", &["1:1 error: nothing is imported as `A`"]),
         ("A --> ) B", &["1:7 error: nothing is open here, found `)`"]),
         ("A --> comp(f) { all A | top : B }",
-            &["1:21 error: expected `:` or `=` after a selector or size, found `A`"]),
+            &["1:21 error: expected `:`, `=` or `=:` after a selector or size, found `A`"]),
         ("A --> comp(f) { all : B. ; }", &["1:26 error: expected `|` or `}` after a cell, found `;`"]),
         ("A --> split(x) { { 1 : B. } }", &[]),
         ("A --> comp(f) { { all : B. }* }", &["1:17 error: only the cells of splits can be repeated"]),
@@ -85,7 +85,7 @@ fn statements_that_do_not_parse() {
         ("A --> inline(append)", &["1:21 error: expected a rule, an operation or `{`, found the end of the file"]),
         // `A` is defined, where it does not parse: that it is missing would be a false follow-up.
         ("Lot --> A\nA --> split(x) { 1 B. }",
-            &["2:20 error: expected `:` or `=` after a selector or size, found `B.`"]),
+            &["2:20 error: expected `:`, `=` or `=:` after a selector or size, found `B.`"]),
         ("import a \"b\"", &["1:10 error: expected `:` after the name of an import, found `\"b\"`"]),
         ("@Range(0, 1)", &["1:13 error: expected the statement to which the annotations belong, found the end of the file"]),
         (

@@ -16,7 +16,10 @@ const HOUSE: &str = "attr tall = 40% : 3 else : 5
         40% : split(y) { 1 : Sill. | ~1 : Window(i) }
         else : Plain.
     Window(i) --> print(word + i) report(\"window\", i) Glass Glass
-    Glass --> 50% : color(rand(), 0, 0) Pane. 20% : NIL else : [ t(0, 0, p(0.5)) Frame. ] Pane.
+    Glass --> 30% : set(seedian, 7) Lit [ set(seedian, split.index) Lit ] Lit else : Plate
+    Lit --> 50% : print(seedian) NIL else : color(0, rand(), 0) Lamp Lamp
+    Lamp --> 50% : A. else : B.
+    Plate --> 50% : color(rand(), 0, 0) Pane. 20% : NIL else : [ t(0, 0, p(0.5)) Frame. ] Pane.
     Roof --> 50% : Flat. else : Tiles";
 
 fn options(seed: u64, edits: Vec<(Vec<u32>, Edit)>) -> Options {

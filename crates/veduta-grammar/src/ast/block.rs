@@ -110,6 +110,28 @@ impl Block {
     }
 }
 
+/// How what a cell selects becomes shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Joining {
+    /// `:`: a shape of each.
+    Each,
+    /// `=`: one shape of all.
+    All,
+    /// `=:`: one shape of all that hang together.
+    Connected,
+}
+
+impl Joining {
+    /// As it is written.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Self::Each => ":",
+            Self::All => "=",
+            Self::Connected => "=:",
+        }
+    }
+}
+
 /// A cell of a block. `T` is a [`Body`], or an [`Expr`] in the function `comp`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell<T> {
@@ -119,8 +141,7 @@ pub enum Cell<T> {
         selector: Expr,
         /// The second size of a cell of `splitAndSetbackPerimeter` (`length : depth : …`).
         depth: Option<Expr>,
-        /// `=`: all that is selected becomes one shape. `:`: one shape each.
-        combined: bool,
+        joining: Joining,
         body: T,
         span: Span,
     },

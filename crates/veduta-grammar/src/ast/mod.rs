@@ -16,7 +16,7 @@
 mod block;
 mod expression;
 
-pub use block::{Block, Body, Branch, Branches, Call, Cell, Operation, Test};
+pub use block::{Block, Body, Branch, Branches, Call, Cell, Joining, Operation, Test};
 pub use expression::{BinaryOp, Expr, ExprKind, Size, UnaryOp};
 
 use crate::{Span, Symbol};

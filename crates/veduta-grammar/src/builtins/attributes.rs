@@ -53,7 +53,6 @@ pub fn is_settable(name: &str) -> bool {
         "initialShape.",
         "scope.elevation",
         "pivot.",
-        "seedian",
         "uid",
     ];
     !read_only.iter().any(|start| name.starts_with(start))

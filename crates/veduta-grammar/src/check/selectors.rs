@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::Checker;
-use crate::ast::{Body, Cell, Expr, ExprKind};
+use crate::ast::{Body, Cell, Expr, ExprKind, Joining};
 use crate::builtins::{is_word, Words, NONE};
 use crate::{Diagnostic, Span, Symbol};
 
@@ -77,15 +77,18 @@ impl Checker<'_> {
                 Cell::Part {
                     selector,
                     depth,
-                    combined,
+                    joining,
                     body,
                     ..
                 } => {
                     self.expr(selector, NONE);
                     self.says_a_size(selector.span);
                     depth.iter().for_each(|depth| self.expr(depth, NONE));
-                    if *combined {
-                        let message = "`=` combines what a selector selects; sizes take `:`";
+                    if *joining != Joining::Each {
+                        let message = format!(
+                            "`{}` combines what a selector selects; sizes take `:`",
+                            joining.sign()
+                        );
                         self.diagnostics.error(selector.span, message);
                     }
                     self.body(body);

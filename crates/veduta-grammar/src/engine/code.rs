@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::ast::{BinaryOp, UnaryOp};
+use crate::ast::{BinaryOp, Joining, UnaryOp};
 use crate::shape::Kind;
 use crate::{Span, Symbol};
 
@@ -234,8 +234,8 @@ pub enum Sizing {
 #[derive(Debug, Clone)]
 pub struct ComponentValue {
     pub selector: Selector,
-    /// `=`: the value is that of all that is selected as one shape.
-    pub combined: bool,
+    /// `=` and `=:`: the value is that of what is selected as one shape.
+    pub joining: Joining,
     pub value: Expr,
 }
 
@@ -245,23 +245,22 @@ pub enum Cell {
         selector: Selector,
         /// The second size of a cell of `splitAndSetbackPerimeter`.
         depth: Option<Expr>,
-        /// `=`: all that is selected becomes one shape.
-        combined: bool,
+        joining: Joining,
         body: Body,
     },
     Repeat(Vec<Cell>),
 }
 
 impl Cell {
-    /// Selector, whether all becomes one shape, and body; None of cells that repeat.
-    pub fn part(&self) -> Option<(&Selector, bool, &Body)> {
+    /// Selector, how shapes become of it, and body; None of cells that repeat.
+    pub fn part(&self) -> Option<(&Selector, Joining, &Body)> {
         match self {
             Self::Part {
                 selector,
-                combined,
+                joining,
                 body,
                 ..
-            } => Some((selector, *combined, body)),
+            } => Some((selector, *joining, body)),
             Self::Repeat(_) => None,
         }
     }

@@ -17,11 +17,29 @@ pub struct Frame {
     pub slots: Vec<Value>,
     pub stream: Stream,
     pub depth: usize,
-    /// Where the children's streams come from: the rule's own draws do not move them.
-    pub(super) origin: Stream,
+    pub(super) seeding: Seeding,
     pub(super) children: u32,
     pub(super) draws: Draws,
     pub(super) fate: Fate,
+}
+
+/// Where the children's streams come from: the rule's own draws do not move them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Seeding {
+    origin: Stream,
+    /// The number of the first child that gets its stream from here.
+    first: u32,
+}
+
+impl Seeding {
+    pub fn new(origin: Stream) -> Self {
+        Self { origin, first: 0 }
+    }
+
+    /// The stream of the child with this number.
+    pub fn child(self, place: u32) -> Stream {
+        self.origin.child(place - self.first)
+    }
 }
 
 /// What becomes of the current shape at the end of its body.
@@ -43,6 +61,24 @@ impl Frame {
             state: &self.state,
             stream: &mut self.stream,
             draws: &mut self.draws,
+        }
+    }
+
+    /// `set(seedian, …)`: from here on chances hang on the number and on nothing else, here and in
+    /// the shapes that are made until the end of the brackets or of the cell.
+    pub(super) fn reseed(&mut self, seed: f64) {
+        self.state.seed = seed;
+        self.stream = Stream::new((seed + 0.0).to_bits());
+        self.seeding = Seeding {
+            origin: self.stream,
+            first: self.children,
+        };
+    }
+
+    /// Goes back to where the streams came from before a part of the rule.
+    pub(super) fn seed_again(&mut self, (seeding, stream): (Seeding, Stream)) {
+        if self.seeding != seeding {
+            (self.seeding, self.stream) = (seeding, stream);
         }
     }
 

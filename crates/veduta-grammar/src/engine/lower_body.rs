@@ -140,7 +140,7 @@ impl Lowering<'_> {
         Cell::Part {
             selector: Selector::Word("all".into()),
             depth: None,
-            combined: false,
+            joining: ast::Joining::Each,
             body: self.body(body),
         }
     }
@@ -172,14 +172,14 @@ impl Lowering<'_> {
             ast::Cell::Part {
                 selector,
                 depth,
-                combined,
+                joining,
                 body,
                 ..
             } => {
                 let part = Cell::Part {
                     selector: self.selector(selector),
                     depth: depth.as_ref().map(|depth| self.expr(depth)),
-                    combined: *combined,
+                    joining: *joining,
                     body: self.body(body),
                 };
                 lowered.push(part);

@@ -93,14 +93,14 @@ impl Lowering<'_> {
         for cell in cells {
             if let ast::Cell::Part {
                 selector,
-                combined,
+                joining,
                 body,
                 ..
             } = cell
             {
                 lowered.push(ComponentValue {
                     selector: self.selector(selector),
-                    combined: *combined,
+                    joining: *joining,
                     value: self.expr(body),
                 });
             }

@@ -8,7 +8,6 @@ use super::code::Code;
 use super::fault::Fault;
 use super::limits::Limit;
 use super::overrides::Edited;
-use super::random::Stream;
 use super::run::{derive, Options, Run, Waiting};
 use super::tree::{Node, Told, Tree};
 use crate::Span;
@@ -86,12 +85,9 @@ fn part(code: &Code, tree: &Tree, root: u32, options: &Options) -> Result<Tree, 
             at = child.unwrap_or(at);
         }
     }
-    let streams = path.iter();
-    let stream = streams.fold(Stream::new(options.seed), |one, &place| one.child(place));
     let mut run = Run::new(code, options, line, Clock::starting(options.limits));
     run.wait(Waiting {
         node: path.len() as u32,
-        stream,
         depth: path.len(),
         trail: Vec::new(),
     });

@@ -13,7 +13,7 @@ use super::code::{Code, Expr, Rule};
 use super::draws::{Draws, LogSum};
 use super::fault::Fault;
 use super::files::Files;
-use super::frame::{Fate, Frame};
+use super::frame::{Fate, Frame, Seeding};
 use super::globals::Global;
 use super::limits::{Limit, Limits};
 use super::occluders::{Neighbour, Occluder, Trail};
@@ -74,7 +74,6 @@ pub struct Run<'a> {
 /// A shape that its rule has still to be applied to.
 pub(super) struct Waiting {
     pub node: u32,
-    pub stream: Stream,
     pub depth: usize,
     /// Where the shape stands; empty where no rule asks about other shapes.
     pub trail: Vec<u32>,
@@ -184,6 +183,7 @@ impl<'a> Run<'a> {
             name: called.name.clone(),
             rule: Some(rule as u32),
             args: Box::default(),
+            stream: Stream::new(self.options.seed),
             choices: Vec::new(),
             inlined: LogSum::default(),
             state,
@@ -192,7 +192,6 @@ impl<'a> Run<'a> {
         });
         self.wait(Waiting {
             node: 0,
-            stream: Stream::new(self.options.seed),
             depth: 0,
             trail: Vec::new(),
         });
@@ -212,9 +211,9 @@ impl<'a> Run<'a> {
             span: rule.span,
             state: node.state.clone(),
             slots: node.args.to_vec(),
-            stream: next.stream,
+            stream: node.stream,
             depth: next.depth,
-            origin: next.stream,
+            seeding: Seeding::new(node.stream),
             children: 0,
             draws: Draws::of(edit.filter(|edit| edit.fits(node))),
             fate: Fate::Untouched,

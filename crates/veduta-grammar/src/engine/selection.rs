@@ -3,12 +3,13 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
+use glam::{DMat3, DVec3};
 use veduta_geometry::solid::{joined, Mesh};
 
-use crate::ast::{BinaryOp, UnaryOp};
+use crate::ast::{BinaryOp, Joining, UnaryOp};
 use crate::shape::{
-    components, is_meant, surroundings, Component, Form, Frames, Geometry, Kind, Surroundings,
-    TOLERANCE,
+    components, connected, is_meant, surroundings, Component, Form, Frames, Geometry, Kind, Scope,
+    Surroundings, TOLERANCE,
 };
 use crate::Span;
 
@@ -118,6 +119,24 @@ impl Choosing {
         }
     }
 
+    /// The picked components by the shapes that they become together: all, or those that hang
+    /// together.
+    pub fn together(&self, picked: Vec<usize>, joining: Joining) -> Vec<Vec<usize>> {
+        if picked.is_empty() || joining != Joining::Connected {
+            return vec![picked];
+        }
+        let forms: Vec<&Form> = picked.iter().map(|&at| &self.found[at].form).collect();
+        connected(&forms, self.near())
+            .into_iter()
+            .map(|group| group.into_iter().map(|number| picked[number]).collect())
+            .collect()
+    }
+
+    /// What met in a corner still does when it is nearer than this (m).
+    fn near(&self) -> f64 {
+        TOLERANCE * self.form.scope.size.length()
+    }
+
     /// The picked components as one shape, along the axes of the first; none where nothing is picked.
     pub fn combined(&self, picked: &[usize]) -> Option<Form> {
         let parts: Vec<Mesh> = picked
@@ -127,11 +146,32 @@ impl Choosing {
         if parts.is_empty() {
             return None;
         }
-        // What met in a corner still does.
-        let near = TOLERANCE * self.form.scope.size.length();
-        let all = joined(&parts.iter().collect::<Vec<_>>(), near);
+        let all = joined(&parts.iter().collect::<Vec<_>>(), self.near());
         let axes = self.found[picked[0]].form.scope.axes;
+        if all.is_empty() {
+            return Some(self.without_faces(picked, axes));
+        }
         Some(Form::around(all, axes, false))
+    }
+
+    /// Edges or vertices as one shape: a scope around them.
+    fn without_faces(&self, picked: &[usize], axes: DMat3) -> Form {
+        let ends = picked.iter().flat_map(|&at| {
+            let scope = self.found[at].form.scope;
+            [scope.origin, scope.world(DVec3::ONE)]
+        });
+        let local: Vec<DVec3> = ends.map(|end| axes.transpose() * end).collect();
+        let low = local.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = local.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let scope = Scope {
+            origin: axes * low,
+            axes,
+            size: high - low,
+        };
+        Form {
+            scope,
+            geometry: Geometry::Nothing,
+        }
     }
 
     /// Whether its components have pivots of their own.
@@ -261,7 +301,7 @@ impl Run<'_> {
     }
 
     /// A value for each component, from the first cell that selects it; 0 where none does. After `=`
-    /// it is that of all that the cell selects as one shape.
+    /// and `=:` it is that of the shape that the component becomes a part of.
     pub(super) fn component_values(
         &mut self,
         (kind, aligned): (Kind, bool),
@@ -282,12 +322,17 @@ impl Run<'_> {
         let chosen = self.chosen(selectors, &choosing, span, scene)?;
         let mut values = vec![None; choosing.found.len()];
         for (cell, picked) in cells.iter().zip(chosen) {
-            if cell.combined {
-                if let Some(form) = choosing.combined(&picked) {
-                    let place = Place { index: 0, total: 1 };
+            if cell.joining != Joining::Each {
+                let groups = choosing.together(picked, cell.joining);
+                let total = groups.len();
+                for (index, group) in groups.into_iter().enumerate() {
+                    let Some(form) = choosing.combined(&group) else {
+                        continue;
+                    };
+                    let place = Place { index, total };
                     let value =
                         self.value_of_component(cell, form, choosing.has_pivots(), place, scene)?;
-                    for at in picked {
+                    for at in group {
                         values[at] = Some(value.clone());
                     }
                 }

@@ -119,7 +119,7 @@ impl ShapeAttribute {
             Self::Material(name) => {
                 materials::get(&state.look, name).unwrap_or_else(|| Value::text(""))
             }
-            Self::Seed => Value::Number(f64::from(state.seed)),
+            Self::Seed => Value::Number(state.seed),
             Self::Elevation => Value::Number(scope.origin.y),
             Self::Own => Value::Number(f64::from(number_of(&path()))),
             Self::PivotPlace(axis) => {

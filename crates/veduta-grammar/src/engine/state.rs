@@ -93,7 +93,8 @@ pub struct State {
     pub comp: Place,
     /// The selector that `comp` chose the shape by.
     pub selector: Arc<str>,
-    pub seed: u32,
+    /// `seedian`.
+    pub seed: f64,
 }
 
 impl State {
@@ -106,7 +107,7 @@ impl State {
             split: Place::default(),
             comp: Place::default(),
             selector: "".into(),
-            seed,
+            seed: f64::from(seed),
         }
     }
 

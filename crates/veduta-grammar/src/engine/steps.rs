@@ -58,6 +58,7 @@ impl Run<'_> {
     /// `[ ... ]`: what is left of the copy at its end stays as a leaf, if anything was done to it.
     fn run_pushed(&mut self, body: &Body, frame: &mut Frame) -> Result<(), Fault> {
         let kept = (frame.state.clone(), frame.fate);
+        let seeding = (frame.seeding, frame.stream);
         frame.fate = Fate::Done;
         self.enter();
         self.run_body(body, frame)?;
@@ -66,12 +67,14 @@ impl Run<'_> {
         }
         self.back();
         (frame.state, frame.fate) = kept;
+        frame.seed_again(seeding);
         Ok(())
     }
 
     /// Runs a cell's body on a shape of its own; what is left of it stays as a leaf.
     pub fn run_cell(&mut self, body: &Body, state: State, frame: &mut Frame) -> Result<(), Fault> {
         let kept = std::mem::replace(&mut frame.state, state);
+        let seeding = (frame.seeding, frame.stream);
         let children = frame.children;
         frame.fate = Fate::Untouched;
         self.hold(frame.state.form.geometry.byte_count(), frame.span)?;
@@ -82,6 +85,7 @@ impl Run<'_> {
         }
         self.back();
         frame.state = kept;
+        frame.seed_again(seeding);
         frame.consumed();
         Ok(())
     }
@@ -99,17 +103,11 @@ impl Run<'_> {
             return Err(Fault::over(Limit::Depth, span, message));
         }
         let name = self.code.rules[rule].name.clone();
-        let stream = frame.origin.child(frame.children);
         let trail = self.trail.as_mut().map(Trail::child).unwrap_or_default();
         let Some(node) = self.add(name, Some(rule as u32), args, frame, span)? else {
             return Ok(());
         };
-        self.wait(Waiting {
-            node,
-            stream,
-            depth,
-            trail,
-        });
+        self.wait(Waiting { node, depth, trail });
         Ok(())
     }
 
@@ -162,6 +160,7 @@ impl Run<'_> {
             name,
             rule,
             args: args.into(),
+            stream: frame.seeding.child(place),
             choices: Vec::new(),
             inlined: LogSum::default(),
             state: frame.state.clone(),

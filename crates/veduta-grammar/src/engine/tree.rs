@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::draws::{LogSum, Taken};
 use super::overrides::Edited;
+use super::random::Stream;
 use super::state::State;
 use super::value::Value;
 
@@ -20,6 +21,8 @@ pub struct Node {
     pub rule: Option<u32>,
     /// What its rule was given, without edits.
     pub args: Box<[Value]>,
+    /// What its rule draws from.
+    pub stream: Stream,
     /// The random alternatives taken in that rule, in order.
     pub choices: Vec<Taken>,
     /// The logarithm of the chance of the alternatives taken in rules that it inlined.

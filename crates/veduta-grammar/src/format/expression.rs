@@ -76,7 +76,7 @@ impl Run {
                 self.push(words);
                 self.starts_value = true;
             }
-            TokenKind::Colon | TokenKind::Assign | TokenKind::Define => {
+            TokenKind::Colon | TokenKind::Assign | TokenKind::AssignEach | TokenKind::Define => {
                 self.parts.push(Doc::text(" "));
                 self.push(words);
                 self.parts.push(Doc::text(" "));

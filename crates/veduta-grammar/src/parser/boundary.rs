@@ -91,9 +91,11 @@ impl Parser<'_> {
         loop {
             match self.kind_at(index) {
                 TokenKind::Colon => return self.kind_at(index - 1) != TokenKind::Percent,
-                TokenKind::Assign | TokenKind::Bar | TokenKind::Tilde | TokenKind::Quote => {
-                    return true
-                }
+                TokenKind::Assign
+                | TokenKind::AssignEach
+                | TokenKind::Bar
+                | TokenKind::Tilde
+                | TokenKind::Quote => return true,
                 TokenKind::Case
                 | TokenKind::CloseBrace
                 | TokenKind::Arrow
@@ -115,6 +117,7 @@ impl Parser<'_> {
                 TokenKind::Bar => return true,
                 TokenKind::Colon
                 | TokenKind::Assign
+                | TokenKind::AssignEach
                 | TokenKind::CloseBrace
                 | TokenKind::Arrow
                 | TokenKind::EndOfFile => return false,

@@ -1,7 +1,7 @@
 //! Operations with their arguments and blocks.
 
 use super::cursor::{Parsed, Parser};
-use crate::ast::{Block, Body, Call, Cell, Expr, ExprKind, Operation, Size};
+use crate::ast::{Block, Body, Call, Cell, Expr, ExprKind, Joining, Operation, Size};
 use crate::token::TokenKind;
 use crate::Span;
 
@@ -177,16 +177,19 @@ impl Parser<'_> {
             return Ok(Cell::Part {
                 selector: share_at(start),
                 depth: None,
-                combined: false,
+                joining: Joining::Each,
                 body,
                 span: self.since(start),
             });
         }
         let selector = self.selector()?;
-        let combined = match self.kind() {
-            TokenKind::Colon => false,
-            TokenKind::Assign => true,
-            _ => return self.fail("expected `:` or `=` after a selector or size".to_string()),
+        let joining = match self.kind() {
+            TokenKind::Colon => Joining::Each,
+            TokenKind::Assign => Joining::All,
+            TokenKind::AssignEach => Joining::Connected,
+            _ => {
+                return self.fail("expected `:`, `=` or `=:` after a selector or size".to_string())
+            }
         };
         self.advance();
         let mut depth = None;
@@ -198,7 +201,7 @@ impl Parser<'_> {
         Ok(Cell::Part {
             selector,
             depth,
-            combined,
+            joining,
             body,
             span: self.since(start),
         })
@@ -217,7 +220,7 @@ impl Parser<'_> {
         let part = Cell::Part {
             selector: share_at(span),
             depth: None,
-            combined: false,
+            joining: Joining::Each,
             body,
             span,
         };

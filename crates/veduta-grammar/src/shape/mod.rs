@@ -2,6 +2,7 @@
 
 mod asset;
 mod components;
+mod connected;
 mod distances;
 mod form;
 mod scope;
@@ -12,6 +13,7 @@ mod surroundings;
 
 pub use asset::{Asset, AssetFaces, Instance, Labels, Slot};
 pub use components::{components, direction, is_selected, Component, Direction, Kind};
+pub use connected::connected;
 pub use distances::box_distance;
 pub use form::{rectangle, Form, Geometry, TOLERANCE};
 pub use scope::{over, Scope};

@@ -6,6 +6,8 @@ use veduta_grammar::ast::*;
 
 use super::{dotted, nowhere, string};
 
+const JOININGS: &[Joining] = &[Joining::Each, Joining::All, Joining::Connected];
+
 fn expr_of(kind: ExprKind) -> Expr {
     Expr::new(kind, nowhere())
 }
@@ -137,11 +139,11 @@ pub fn cells<T: std::fmt::Debug + Clone + 'static>(
         Just(None).boxed()
     };
     let cell =
-        (selector, depth, any::<bool>(), part).prop_map(|(selector, depth, combined, body)| {
+        (selector, depth, select(JOININGS), part).prop_map(|(selector, depth, joining, body)| {
             Cell::Part {
                 selector,
                 depth,
-                combined,
+                joining,
                 body,
                 span: nowhere(),
             }

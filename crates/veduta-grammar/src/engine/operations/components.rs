@@ -10,11 +10,12 @@ use super::super::selection::{kind_named, Choosing};
 use super::super::state::{Place, State};
 use super::trimming::planes;
 use super::word;
+use crate::ast::Joining;
 use crate::shape::{Form, Kind};
 
 /// `comp(f) { front : A | side : B | all = C }`: each component goes to the first cell that
-/// selects it. After `:` each is a shape of its own, after `=` those of the cell are one. `f` are
-/// faces, `e` edges, each once, `fe` the edges of each face, `v` vertices, `h` what fills holes,
+/// selects it. After `:` each is a shape of its own, after `=` those of the cell are one, after `=:`
+/// those of the cell that hang together are one. `f` are faces, `e` edges, each once, `fe` the edges of each face, `v` vertices, `h` what fills holes,
 /// `g` and `m` the groups and materials of an asset. With `noAlign` the scopes of faces have the axes
 /// of the shape.
 ///
@@ -39,16 +40,19 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
     };
     let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
     for (cell, picked) in op.cells.iter().zip(chosen) {
-        let Some((selector, combined, body)) = cell.part() else {
+        let Some((selector, joining, body)) = cell.part() else {
             return Err(Fault::at(op.span, "components do not repeat"));
         };
-        let shapes: Vec<Form> = if combined {
-            choosing.combined(&picked).into_iter().collect()
-        } else {
+        let each = joining == Joining::Each;
+        let shapes: Vec<Form> = if each {
             let form = |&at: &usize| choosing.found[at].form.clone();
             picked.iter().map(form).collect()
+        } else {
+            let groups = choosing.together(picked.clone(), joining);
+            let forms = groups.iter().map(|group| choosing.combined(group));
+            forms.flatten().collect()
         };
-        if !combined && matches!(kind, Kind::Groups | Kind::Materials) {
+        if each && matches!(kind, Kind::Groups | Kind::Materials) {
             let total = picked.len();
             for (index, &at) in picked.iter().enumerate() {
                 let place = Place { index, total };
@@ -59,7 +63,7 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
             }
             continue;
         }
-        if !planes.is_empty() && !combined {
+        if !planes.is_empty() && each {
             let total = picked.len();
             for ((index, &at), shape) in picked.iter().enumerate().zip(shapes) {
                 let place = Place { index, total };

@@ -24,7 +24,9 @@ pub fn inline(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         _ => word(run, op, 0, frame)?,
     };
     let left = left_by(run, op, 0, frame)?;
+    let seed = frame.state.seed;
     frame.state = together(run, op, left, &how, &frame.state)?;
+    frame.state.seed = seed;
     frame.changed();
     Ok(())
 }
@@ -70,7 +72,9 @@ fn combine(
     } else {
         Vec::new()
     };
+    let seed = frame.state.seed;
     frame.state = combined(run, op, first, &second, how)?;
+    frame.state.seed = seed;
     if run.code.tags {
         // What both had is a tag of single faces now.
         frame.state.extra_mut().tags.clear();

@@ -14,6 +14,7 @@ use super::super::state::State;
 use super::components::selectors;
 use super::inlining::recomposed;
 use super::word;
+use crate::ast::Joining;
 use crate::shape::{Component, Form, Geometry, Kind, TOLERANCE};
 
 /// `modify(f | e | v) { selector : operations | ... }`: as `comp`, but what the operations leave takes
@@ -43,7 +44,7 @@ pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     for (cell, picked) in op.cells.iter().zip(chosen) {
         let Cell::Part {
             selector,
-            combined: false,
+            joining: Joining::Each,
             body,
             ..
         } = cell

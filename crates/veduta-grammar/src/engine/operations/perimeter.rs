@@ -54,11 +54,11 @@ pub fn split_and_set_back(
         run.run_cell(section.body, state, frame)?;
     }
     for cell in &op.cells {
-        let Some((selector, combined, body)) = cell.part() else {
+        let Some((selector, joining, body)) = cell.part() else {
             continue;
         };
         if is_rest(selector) {
-            let shapes = super::setbacks::as_shapes(rest.clone(), whole.form.scope.axes, combined);
+            let shapes = super::setbacks::as_shapes(rest.clone(), whole.form.scope.axes, joining);
             run_shapes(run, body, shapes, &whole, &selector.name(), frame)?;
         }
     }

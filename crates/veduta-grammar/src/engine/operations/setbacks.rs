@@ -10,7 +10,8 @@ use super::super::selection::{Choosing, REMAINDER};
 use super::super::value::Value;
 use super::components::{run_shapes, selectors};
 use super::{numbers, positive, value};
-use crate::shape::{Form, Kind};
+use crate::ast::Joining;
+use crate::shape::{connected, Form, Kind, TOLERANCE};
 
 /// How often the distance of `setbackToArea` is halved.
 const HALVINGS: usize = 48;
@@ -253,11 +254,11 @@ pub fn run_pieces(
     let whole = frame.state.clone();
     let axes = whole.form.scope.axes;
     for (index, cell) in op.cells.iter().enumerate() {
-        let Some((selector, combined, body)) = cell.part() else {
+        let Some((selector, joining, body)) = cell.part() else {
             return Err(Fault::at(op.span, "these cells do not repeat"));
         };
         let is_rest = matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER);
-        let shapes = as_shapes(faces_of((!is_rest).then_some(index)), axes, combined);
+        let shapes = as_shapes(faces_of((!is_rest).then_some(index)), axes, joining);
         run_shapes(run, body, shapes, &whole, &selector.name(), frame)?;
     }
     frame.state = whole;
@@ -265,15 +266,24 @@ pub fn run_pieces(
     Ok(())
 }
 
-/// Faces as a shape each, or as one.
-pub fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<Form> {
+/// Faces as a shape each, as one, or as one of those that hang together.
+pub fn as_shapes(faces: Mesh, axes: glam::DMat3, joining: Joining) -> Vec<Form> {
     if faces.is_empty() {
         return Vec::new();
     }
-    if combined {
+    if joining == Joining::All {
         return vec![Form::around(faces, axes, false)];
     }
     let each = 0..faces.face_count();
-    each.map(|face| Form::around(faces.of_faces([face]), axes, false))
+    let alone: Vec<Form> = each
+        .map(|face| Form::around(faces.of_faces([face]), axes, false))
+        .collect();
+    if joining == Joining::Each {
+        return alone;
+    }
+    let reach = faces.bounds().map_or(0.0, |(low, high)| low.distance(high));
+    connected(&alone.iter().collect::<Vec<_>>(), TOLERANCE * reach)
+        .into_iter()
+        .map(|group| Form::around(faces.of_faces(group), axes, false))
         .collect()
 }

@@ -18,7 +18,8 @@ use crate::builtins::attributes;
 use crate::shape::Scope;
 
 /// `set(name, value)`: a material's property, the place, turn or size of the scope, or an attribute of
-/// the rule file for this shape and its children; `material.name` says what the surface is in the
+/// the rule file for this shape and its children; what chances are drawn from, here and in the shapes
+/// made of this one (`seedian`); `material.name` says what the surface is in the
 /// model.
 pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let name = word(run, op, 0, frame)?;
@@ -44,6 +45,10 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
             let mut set = frame.state.set.take().map(Arc::unwrap_or_clone);
             set.get_or_insert_with(BTreeMap::new).insert(index, value);
             frame.state.set = set.map(Arc::new);
+        }
+        ("seedian", _) => {
+            let wanted = || Fault::at(expr.span, format!("`seedian` is a number, not `{value}`"));
+            frame.reseed(value.number().ok_or_else(wanted)?);
         }
         ("trim.horizontal", _) => {
             frame.state.extra_mut().trims_level = value.truth().unwrap_or(false);
