@@ -10,7 +10,6 @@ lower left corner.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -20,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from veduta.formats import cityjson_frame as frame
 from veduta.place.flatten import flattened
 from veduta.place.material import Texture
 from veduta.place.part import NO_PARENT, Part
@@ -39,8 +39,7 @@ def write_cityjson(part: Part, path: Path, pictures: Mapping[Texture, str] = NO_
 
     pictures: the files of its textures, by their paths from the file's folder.
     """
-    text = json.dumps(cityjson(part, pictures), separators=(",", ":"), allow_nan=False)
-    write_bytes(path, text.encode())
+    write_bytes(path, frame.encoded(cityjson(part, pictures)))
 
 
 def cityjson(part: Part, pictures: Mapping[Texture, str] = NO_PICTURES) -> dict[str, Any]:
@@ -48,11 +47,8 @@ def cityjson(part: Part, pictures: Mapping[Texture, str] = NO_PICTURES) -> dict[
     part = flattened(part)
     look = _Appearance(part, pictures)
     low = np.floor(part.positions_m.min(axis=0).astype(np.float64))
-    steps = np.round((part.positions_m.astype(np.float64) - low) / GRID_M).astype(np.int64)
-    vertices, vertex_of = np.unique(steps, axis=0, return_inverse=True)
-    rings = _Rings(
-        part.polygon_offsets.tolist(), part.ring_offsets.tolist(), vertex_of.reshape(-1).tolist()
-    )
+    vertices, vertex_of = frame.shared_vertices(part.positions_m.astype(np.float64), low, GRID_M)
+    rings = _Rings(part.polygon_offsets.tolist(), part.ring_offsets.tolist(), vertex_of.tolist())
     building: dict[str, Any] = {
         "type": "Building",
         "attributes": dict(part.attributes),
@@ -73,15 +69,17 @@ def cityjson(part: Part, pictures: Mapping[Texture, str] = NO_PICTURES) -> dict[
         }
     if len(objects) > 1:
         building["children"] = [name for name in objects if name != part.id]
-    return {
-        "type": "CityJSON",
-        "version": "2.0",
-        "metadata": {"title": part.id, "geographicalExtent": _extent(part)},
-        "transform": {"scale": [GRID_M] * 3, "translate": low.tolist()},
-        "CityObjects": objects,
-        "vertices": vertices.tolist(),
-        **look.told(),
-    }
+    (west, south, bottom), (east, north, top) = part.bounds_m
+    whole = frame.document(
+        GRID_M,
+        low.tolist(),
+        title=part.id,
+        extent_m=(west, south, bottom, east, north, top),
+        objects=objects,
+        vertices=vertices,
+    )
+    shown = look.shown.told(THEME)
+    return whole | ({"appearance": shown} if shown else {})
 
 
 @dataclass(frozen=True)
@@ -106,13 +104,12 @@ class _Rings:
 
 @dataclass
 class _Appearance:
-    """The pictures that surfaces of a part name, and the texture vertices, as they come."""
+    """The pictures that surfaces of a part name."""
 
     part: Part
     pictures: Mapping[Texture, str]
     names: list[str | None] = field(init=False)
-    images: dict[str, int] = field(default_factory=dict)
-    uv: dict[tuple[float, float], int] = field(default_factory=dict)
+    shown: frame.Shown = field(default_factory=frame.Shown)
 
     def __post_init__(self) -> None:
         """Look up the picture of each material once."""
@@ -124,31 +121,11 @@ class _Appearance:
         part = self.part
         name = self.names[part.polygon_material[polygon]]
         first, last = part.polygon_offsets[polygon : polygon + 2].tolist()
-        if name is None:
-            return [[None]] * (last - first)
-        image, known = self.images.setdefault(name, len(self.images)), self.uv
-        found: list[list[int | None]] = []
-        for ring in range(first, last):
-            uv = part.uv[part.ring_offsets[ring] : part.ring_offsets[ring + 1]].astype(np.float64)
-            corners = np.round(np.column_stack([uv[:, 0], 1.0 - uv[:, 1]]), 6).tolist()
-            found.append([image, *(known.setdefault((u, v), len(known)) for u, v in corners)])
-        return found
-
-    def told(self) -> dict[str, Any]:
-        """The member of the file; none where nothing has a picture."""
-        if not self.images:
-            return {}
-        images = [
-            {"type": "PNG" if name.endswith(".png") else "JPG", "image": name, "wrapMode": "wrap"}
-            for name in self.images
+        ends = part.ring_offsets
+        return [
+            self.shown.ring(name, part.uv[ends[ring] : ends[ring + 1]])
+            for ring in range(first, last)
         ]
-        made = {"textures": images, "vertices-texture": [list(corner) for corner in self.uv]}
-        return {"appearance": {"default-theme-texture": THEME, **made}}
-
-
-def _extent(part: Part) -> list[float]:
-    low, high = part.bounds_m
-    return [*low, *high]
 
 
 def _solid(
@@ -176,15 +153,8 @@ def _solid(
         textures.append(look.rings(polygon))
     if on_building:
         _link_openings(part, surfaces, {feature: row for (feature, _), row in number_of.items()})
-    shape: dict[str, Any] = {
-        "type": "Solid",
-        "lod": "3",
-        "boundaries": [boundaries],
-        "semantics": {"surfaces": surfaces, "values": [values]},
-    }
-    if any(ring != [None] for rings in textures for ring in rings):
-        shape["texture"] = {THEME: {"values": [textures]}}
-    return shape
+    looks = {"texture": (THEME, textures)} if frame.has_pictures(textures) else {}
+    return frame.geometry("3", boundaries, surfaces, values, closed=True, looks=looks)
 
 
 def _by_direction(normal_z: float) -> str:
@@ -196,13 +166,13 @@ def _by_direction(normal_z: float) -> str:
 def surface_entry(part: Part, feature: int, kind: str) -> dict[str, Any]:
     """What is said of a semantic surface of a feature; kind: CityJSON's word for it."""
     features = part.features
-    surface: dict[str, Any] = {
-        "type": kind,
-        "id": features.id[feature],
-        "name": features.name[feature],
-        "class": features.semantic(feature).value,
-        "provenance": features.provenance(feature).value,
-    }
+    surface = frame.surface(
+        kind,
+        features.id[feature],
+        features.name[feature],
+        features.semantic(feature).value,
+        features.provenance(feature).value,
+    )
     for name in ("width_m", "height_m", "seen_height_m"):
         size = float(getattr(features, name)[feature])
         if not math.isnan(size):
@@ -220,5 +190,4 @@ def _link_openings(part: Part, surfaces: list[dict[str, Any]], row_of: dict[int,
             parent = int(part.features.parent[parent])
         if parent == NO_PARENT or parent not in row_of:
             continue
-        surfaces[row]["parent"] = row_of[parent]
-        surfaces[row_of[parent]].setdefault("children", []).append(row)
+        frame.link(surfaces, row, row_of[parent])

@@ -15,6 +15,7 @@ from typing import Any, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.formats import cityjson_frame as frame
 from veduta.formats.cityjson_text import THEME
 
 VERTICES = '"vertices":'
@@ -29,11 +30,9 @@ def write_joined(path: Path, first: Mapping[str, Any], pieces: Sequence[Path]) -
     """
     shared, number = _shared_vertices(pieces)
     looks = _Looks()
-    head = json.dumps(
-        {name: value for name, value in first.items() if name not in ("CityObjects", "vertices")},
-        separators=(",", ":"),
-        allow_nan=False,
-    )
+    head = frame.encoded(
+        {name: value for name, value in first.items() if name not in ("CityObjects", "vertices")}
+    ).decode()
     begin = 0
     with path.open("w", encoding="utf-8") as out:
         out.write(f'{head[:-1]},"CityObjects":{{')

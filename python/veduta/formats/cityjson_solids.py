@@ -8,17 +8,16 @@ up, metres.
 
 from __future__ import annotations
 
-import json
-from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.formats import cityjson_frame as frame
+from veduta.formats.cityjson_frame import Vertex
 
 GRID_M = 1e-3
 PLANE_M = 0.01
@@ -26,7 +25,6 @@ PLANE_M = 0.01
 LOD = "3"
 """The finest that CityJSON 2.0 has: interiors are in it, too (LoD4 is gone since CityGML 3)."""
 
-Vertex = tuple[int, int, int]
 Rings = Sequence[NDArray[np.float64]]
 """(n, 3) corners, the outline counter-clockwise seen from outside, holes clockwise."""
 
@@ -51,7 +49,7 @@ class CityDocument:
         """
         self._title, self._lod, self._crs = title, lod, crs
         self._origin = np.floor(origin_m)
-        self._vertices: dict[Vertex, int] = {}
+        self._vertices = frame.Vertices()
         self._template_vertices: dict[tuple[float, float, float], int] = {}
         self._templates: list[dict[str, Any]] = []
         self.objects: dict[str, dict[str, Any]] = {}
@@ -100,7 +98,7 @@ class CityDocument:
                     own.append(rings)
                     of.append(rows.setdefault(face.surface, len(rows)))
             closed = closed and is_sound(own)
-            boundaries.append([[self._numbers(ring) for ring in face] for face in own])
+            boundaries.append([[self._vertices.numbers(ring) for ring in face] for face in own])
             values.append(of)
         told = _linked([dict(surfaces[key]) for key in rows], rows)
         if not closed:
@@ -149,32 +147,25 @@ class CityDocument:
 
     def content(self, low_m: Sequence[float], high_m: Sequence[float]) -> bytes:
         """The file; low_m, high_m: the corners of the box around everything."""
-        document: dict[str, Any] = {
-            "type": "CityJSON",
-            "version": "2.0",
-            "metadata": {"title": self._title, "geographicalExtent": [*low_m, *high_m]},
-            "transform": {"scale": [GRID_M] * 3, "translate": self._origin.tolist()},
-            "CityObjects": self.objects,
-            "vertices": [list(vertex) for vertex in self._vertices],
-        }
-        if self._crs is not None:
-            authority, _, code = self._crs.partition(":")
-            system = f"https://www.opengis.net/def/crs/{authority}/0/{code}"
-            document["metadata"]["referenceSystem"] = system
+        whole = frame.document(
+            GRID_M,
+            self._origin.tolist(),
+            title=self._title,
+            extent_m=[*low_m, *high_m],
+            crs=self._crs,
+            objects=self.objects,
+            vertices=self._vertices.told(),
+        )
         if self._templates:
-            document["geometry-templates"] = {
+            whole["geometry-templates"] = {
                 "templates": self._templates,
                 "vertices-templates": [list(vertex) for vertex in self._template_vertices],
             }
-        return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-
-    def _numbers(self, ring: Sequence[Vertex]) -> list[int]:
-        known = self._vertices
-        return [known.setdefault(vertex, len(known)) for vertex in ring]
+        return frame.encoded(whole)
 
     def _vertex(self, at_m: NDArray[np.float64]) -> int:
-        steps = np.round((np.asarray(at_m) - self._origin) / GRID_M).astype(np.int64).tolist()
-        return self._vertices.setdefault((steps[0], steps[1], steps[2]), len(self._vertices))
+        steps = frame.steps_of(np.asarray(at_m).reshape(1, 3), self._origin, GRID_M)
+        return self._vertices.numbers(steps.tolist())[0]
 
 
 def closes(faces: Sequence[Rings]) -> bool:
@@ -185,14 +176,9 @@ def closes(faces: Sequence[Rings]) -> bool:
 
 def is_sound(shell: Sequence[Sequence[Sequence[Vertex]]]) -> bool:
     """Whether each face is a flat polygon, and each of their edges is passed once each way."""
-    edges: Counter[tuple[Vertex, Vertex]] = Counter()
-    rings = [ring for face in shell for ring in face]
-    for ring in rings:
-        edges.update(pairwise([*ring, ring[0]]))
-    if not edges or any(
-        count != 1 or edges[(end, start)] != 1 for (start, end), count in edges.items()
-    ):
+    if not frame.closes_volume(shell):
         return False
+    rings = [ring for face in shell for ring in face]
     sound = _core.sound_polygons(
         np.concatenate([np.array(ring, dtype=np.float64) for ring in rings]) * GRID_M,
         np.cumsum([0, *(len(ring) for ring in rings)]).astype(np.int64),
@@ -204,7 +190,7 @@ def is_sound(shell: Sequence[Sequence[Sequence[Vertex]]]) -> bool:
 
 def _gridded(rings: Rings, origin_m: NDArray[np.float64]) -> list[list[Vertex]]:
     """The rings of a face in steps of the grid; none where it is too thin for it."""
-    steps = [np.round((ring - origin_m) / GRID_M).astype(np.int64).tolist() for ring in rings]
+    steps = [frame.steps_of(ring, origin_m, GRID_M).tolist() for ring in rings]
     return _cleaned([[(x, y, z) for x, y, z in ring] for ring in steps])
 
 
@@ -244,6 +230,5 @@ def _linked(surfaces: list[dict[str, Any]], rows: Mapping[Hashable, int]) -> lis
     for number, surface in enumerate(surfaces):
         parent = rows.get(surface.pop("parent", None))
         if parent is not None and parent != number:
-            surface["parent"] = parent
-            surfaces[parent].setdefault("children", []).append(number)
+            frame.link(surfaces, number, parent)
     return surfaces

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.formats import cityjson_frame as frame
 from veduta.place.semantics import CITYJSON_SURFACE, Provenance, SemanticClass
 
 FORM = re.compile(r'\{"type":"(Solid|MultiSurface)","lod":"([0-9.]+)"')
@@ -78,7 +79,7 @@ def _appearance(looks: Looks, images: Images) -> str:
 
 def texture(image: str) -> dict[str, str]:
     """What CityJSON says of a picture that repeats."""
-    return {"type": "JPG", "image": image, "wrapMode": "wrap", "textureType": "typical"}
+    return frame.texture(image, "wrap", "typical")
 
 
 def relief_line(name: str, points_m: NDArray[np.float64], triangles: NDArray[np.int32]) -> str:
@@ -86,8 +87,8 @@ def relief_line(name: str, points_m: NDArray[np.float64], triangles: NDArray[np.
 
     Corners that fall into one on the grid are one; a triangle without area is left out.
     """
-    used = np.round(points_m[triangles].reshape(-1, 3) / GRID_M).astype(np.int64)
-    vertices, corners = np.unique(used, axis=0, return_inverse=True)
+    used = points_m[triangles].reshape(-1, 3)
+    vertices, corners = frame.shared_vertices(used, np.zeros(3), GRID_M)
     faces = corners.reshape(-1, 3)
     a, b, c = (faces[:, k] for k in range(3))
     faces = faces[(a != b) & (b != c) & (c != a)]
@@ -96,7 +97,7 @@ def relief_line(name: str, points_m: NDArray[np.float64], triangles: NDArray[np.
     text = _object(name, about, json.dumps(surface, separators=(",", ":")))
     return (
         f'{{"type":"CityJSONFeature","id":{json.dumps(name)},"CityObjects":{{{text}}},'
-        f'"vertices":{json.dumps(vertices.tolist(), separators=(",", ":"))}}}'
+        f'"vertices":{json.dumps(vertices, separators=(",", ":"))}}}'
     )
 
 
@@ -113,24 +114,13 @@ def _object(name: str, record: Mapping[str, Any], geometry: str) -> str:
 
 def header(title: str, crs: str | None, origin_m: Sequence[float]) -> dict[str, Any]:
     """The first line of a sequence: the frame of all features."""
-    metadata: dict[str, Any] = {"title": title}
-    if crs is not None:
-        code = crs.rpartition(":")[2]
-        metadata["referenceSystem"] = f"https://www.opengis.net/def/crs/EPSG/0/{code}"
-    return {
-        "type": "CityJSON",
-        "version": "2.0",
-        "metadata": metadata,
-        "transform": {"scale": [GRID_M] * 3, "translate": list(origin_m)},
-        "CityObjects": {},
-        "vertices": [],
-    }
+    return frame.document(GRID_M, origin_m, title=title, crs=crs)
 
 
 def write_sequence(path: Path, first: Mapping[str, Any], pieces: Iterable[Path]) -> None:
     """Write CityJSONSeq from files of lines, a line at a time in memory."""
     with path.open("w", encoding="utf-8", newline="\n") as out:
-        out.write(json.dumps(first, separators=(",", ":"), allow_nan=False) + "\n")
+        out.write(frame.encoded(first).decode() + "\n")
         for piece in pieces:
             with piece.open(encoding="utf-8") as lines:
                 out.writelines(lines)

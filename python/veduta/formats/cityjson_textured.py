@@ -8,7 +8,6 @@ MultiSurface. Vertices are integers of a millimetre, shared by all that touch.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.formats import cityjson_frame as frame
 from veduta.place.part import Part
 from veduta.place.semantics import CITYJSON_SURFACE, SemanticClass
 from veduta.run.atomic import write_bytes
@@ -46,8 +46,7 @@ def write_textured(
     path: Path,
 ) -> None:
     """Write the buildings; the file appears whole or not at all. Ids are the parts'."""
-    text = json.dumps(textured(parts, crs, origin_m), separators=(",", ":"), allow_nan=False)
-    write_bytes(path, text.encode())
+    write_bytes(path, frame.encoded(textured(parts, crs, origin_m)))
 
 
 def textured(
@@ -57,47 +56,32 @@ def textured(
     world = [one.part.positions_m.astype(np.float64) + one.offset_m + origin_m for one in parts]
     every = np.concatenate(world)
     low = np.floor(every.min(axis=0))
-    steps = np.round((every - low) / GRID_M).astype(np.int64)
-    vertices, vertex_of = np.unique(steps, axis=0, return_inverse=True)
+    vertices, vertex_of = frame.shared_vertices(every, low, GRID_M)
     ends = np.cumsum([0, *(len(points) for points in world)])
     pictures = sorted({path for one in parts for path in one.pictures.values()})
     number_of = {path: number for number, path in enumerate(pictures)}
     texture_vertices: list[list[float]] = []
     objects = {}
     for row, one in enumerate(parts):
-        own = vertex_of.reshape(-1)[ends[row] : ends[row + 1]]
+        own = vertex_of[ends[row] : ends[row + 1]]
         geometry = _geometry(one, own, number_of, texture_vertices)
         objects[one.part.id] = {
             "type": "Building",
             "attributes": dict(one.part.attributes),
             "geometry": [geometry],
         }
-    metadata: dict[str, Any] = {
-        "geographicalExtent": [*every.min(axis=0).tolist(), *every.max(axis=0).tolist()]
-    }
-    if crs is not None:
-        authority, _, code = crs.partition(":")
-        metadata["referenceSystem"] = f"https://www.opengis.net/def/crs/{authority}/0/{code}"
-    document = {
-        "type": "CityJSON",
-        "version": "2.0",
-        "metadata": metadata,
-        "transform": {"scale": [GRID_M] * 3, "translate": low.tolist()},
-        "CityObjects": objects,
-        "vertices": vertices.tolist(),
-    }
+    whole = frame.document(
+        GRID_M,
+        low.tolist(),
+        extent_m=[*every.min(axis=0).tolist(), *every.max(axis=0).tolist()],
+        crs=crs,
+        objects=objects,
+        vertices=vertices,
+    )
     if pictures:
-        document["appearance"] = {
-            "default-theme-texture": THEME,
-            "textures": [_texture(path) for path in pictures],
-            "vertices-texture": texture_vertices,
-        }
-    return document
-
-
-def _texture(path: str) -> dict[str, str]:
-    kind = "PNG" if path.lower().endswith(".png") else "JPG"
-    return {"type": kind, "image": path, "wrapMode": "none", "textureType": "specific"}
+        shown = [frame.texture(path, "none", "specific") for path in pictures]
+        whole["appearance"] = frame.textures(THEME, shown, texture_vertices)
+    return whole
 
 
 def _geometry(
@@ -127,22 +111,14 @@ def _geometry(
                 mapped.append([None])
                 continue
             first = len(texture_vertices)
-            uv = part.uv[corners].astype(np.float64)
-            flipped = np.column_stack([uv[:, 0], 1.0 - uv[:, 1]])
-            texture_vertices += np.round(np.clip(flipped, 0.0, 1.0), 6).tolist()
+            texture_vertices += frame.corners_on_picture(np.clip(part.uv[corners], 0.0, 1.0))
             mapped.append([number_of[picture], *range(first, len(texture_vertices))])
         boundaries.append(rings)
         textures.append(mapped)
-    closed = int(part.features.shell.max()) == 0 and _closed(boundaries)
-    shape: dict[str, Any] = {
-        "type": "Solid" if closed else "MultiSurface",
-        "lod": level_of_detail(part),
-        "boundaries": [boundaries] if closed else boundaries,
-        "semantics": {"surfaces": surfaces, "values": [values] if closed else values},
-    }
-    if one.pictures:
-        shape["texture"] = {THEME: {"values": [textures] if closed else textures}}
-    return shape
+    closed = int(part.features.shell.max()) == 0 and frame.closes_volume(boundaries)
+    looks = {"texture": (THEME, textures)} if one.pictures else {}
+    lod = level_of_detail(part)
+    return frame.geometry(lod, boundaries, surfaces, values, closed=closed, looks=looks)
 
 
 def level_of_detail(part: Part) -> str:
@@ -163,11 +139,3 @@ def _surface(one: TexturedPart, feature: int) -> dict[str, Any]:
         "provenance": features.provenance(feature).value,
         "seen_share": round(seen, 3),
     }
-
-
-def _closed(boundaries: Sequence[Sequence[Sequence[int]]]) -> bool:
-    """Whether each edge is there once to and once fro."""
-    ways = [np.column_stack([ring, [*ring[1:], ring[0]]]) for rings in boundaries for ring in rings]
-    edges = np.concatenate(ways)
-    there = {(a, b) for a, b in edges.tolist()}
-    return len(there) == len(edges) and all((b, a) in there for a, b in there)

@@ -9,15 +9,14 @@ left corner.
 from __future__ import annotations
 
 import json
-from collections import Counter
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.formats import cityjson_frame as frame
 from veduta.formats.city_objects import CitySurface, CityThing, city_things
 from veduta.formats.pictures import Pictures
 from veduta.formats.rings import GRID_M, Face
@@ -27,7 +26,6 @@ from veduta.run.atomic import write_bytes
 
 LOD = "3"
 THEME = "veduta"
-Vertex = tuple[int, int, int]
 
 
 def write_place_cityjson(place: Place, path: Path) -> None:
@@ -47,28 +45,22 @@ def write_place_cityjson(place: Place, path: Path) -> None:
 
 
 def _whole(place: Place, document: _Document, objects: dict[str, Any]) -> dict[str, Any]:
-    metadata: dict[str, Any] = {}
-    if place.title:
-        metadata["title"] = place.title
-    if document.vertices:
-        steps = np.array(list(document.vertices), dtype=np.int64)
-        shift = np.array(place.origin_m if place.crs else (0.0, 0.0, 0.0))
+    origin = tuple(place.origin_m) if place.crs else (0.0, 0.0, 0.0)
+    vertices = document.vertices.told()
+    extent = None
+    if vertices:
+        steps, shift = np.array(vertices, dtype=np.int64), np.array(origin)
         ends = [(steps.min(axis=0) * GRID_M + shift), (steps.max(axis=0) * GRID_M + shift)]
-        metadata["geographicalExtent"] = [round(float(v), 4) for v in np.concatenate(ends)]
-    if place.crs:
-        authority, _, code = place.crs.partition(":")
-        metadata["referenceSystem"] = f"https://www.opengis.net/def/crs/{authority}/0/{code}"
-    whole: dict[str, Any] = {
-        "type": "CityJSON",
-        "version": "2.0",
-        "metadata": metadata,
-        "transform": {
-            "scale": [GRID_M] * 3,
-            "translate": list(place.origin_m) if place.crs else [0.0, 0.0, 0.0],
-        },
-        "CityObjects": objects,
-        "vertices": [list(vertex) for vertex in document.vertices],
-    }
+        extent = [round(float(v), 4) for v in np.concatenate(ends)]
+    whole = frame.document(
+        GRID_M,
+        origin,
+        title=place.title or None,
+        extent_m=extent,
+        crs=place.crs or None,
+        objects=objects,
+        vertices=vertices,
+    )
     appearance = document.appearance()
     return whole | ({"appearance": appearance} if appearance else {})
 
@@ -78,9 +70,8 @@ class _Document:
     """Vertices, materials and textures of the file as they come."""
 
     pictures: Pictures
-    vertices: dict[Vertex, int] = field(default_factory=dict)
-    uv: dict[tuple[float, float], int] = field(default_factory=dict)
-    textures: dict[str, int] = field(default_factory=dict)
+    vertices: frame.Vertices = field(default_factory=frame.Vertices)
+    shown: frame.Shown = field(default_factory=frame.Shown)
     materials: dict[str, int] = field(default_factory=dict)
     looks: list[dict[str, Any]] = field(default_factory=list)
 
@@ -112,34 +103,17 @@ class _Document:
                 values.append(row)
                 textures.append([self.texture(look, face, number) for number in kept])
                 materials.append(self.material(look))
-        closed = _closed(boundaries)
-        geometry: dict[str, Any] = {
-            "type": "Solid" if closed else "MultiSurface",
-            "lod": LOD,
-            "boundaries": [boundaries] if closed else boundaries,
-            "semantics": {
-                "surfaces": _linked(thing.surfaces),
-                "values": [values] if closed else values,
-            },
-            "material": {THEME: {"values": [materials] if closed else materials}},
-        }
-        if any(ring != [None] for face in textures for ring in face):
-            geometry["texture"] = {THEME: {"values": [textures] if closed else textures}}
-        return geometry
+        looks: dict[str, tuple[str, list[Any]]] = {"material": (THEME, materials)}
+        if frame.has_pictures(textures):
+            looks["texture"] = (THEME, textures)
+        surfaces, closed = _linked(thing.surfaces), frame.closes_volume(boundaries)
+        return frame.geometry(LOD, boundaries, surfaces, values, closed=closed, looks=looks)
 
     def numbers(self, ring: NDArray[np.float64]) -> list[int]:
-        known = self.vertices
-        steps = np.round(ring / GRID_M).astype(np.int64).tolist()
-        return [known.setdefault((x, y, z), len(known)) for x, y, z in steps]
+        return self.vertices.numbers(frame.steps_of(ring, np.zeros(3), GRID_M).tolist())
 
     def texture(self, look: Look, face: Face, number: int) -> list[int | None]:
-        picture = self.pictures.name(look)
-        if picture is None:
-            return [None]
-        image = self.textures.setdefault(picture, len(self.textures))
-        uv, known = face.uv[number], self.uv
-        flipped = np.round(np.column_stack([uv[:, 0], 1.0 - uv[:, 1]]), 6).tolist()
-        return [image, *(known.setdefault((u, v), len(known)) for u, v in flipped)]
+        return self.shown.ring(self.pictures.name(look), face.uv[number])
 
     def material(self, look: Look) -> int:
         if look.name not in self.materials:
@@ -156,42 +130,15 @@ class _Document:
         if not self.looks:
             return {}
         made: dict[str, Any] = {"default-theme-material": THEME, "materials": self.looks}
-        if self.textures:
-            made |= {
-                "default-theme-texture": THEME,
-                "textures": [
-                    {"type": "JPG", "image": name, "wrapMode": "wrap"} for name in self.textures
-                ],
-                "vertices-texture": [list(vertex) for vertex in self.uv],
-            }
-        return made
+        return made | self.shown.told(THEME)
 
 
 def _linked(surfaces: tuple[CitySurface, ...]) -> list[dict[str, Any]]:
     """What is said of each surface; walls list what opens them."""
     told: list[dict[str, Any]] = [
-        {
-            "type": one.kind,
-            "id": one.id,
-            "name": one.name,
-            "class": one.semantic,
-            "provenance": one.provenance,
-        }
-        for one in surfaces
+        frame.surface(one.kind, one.id, one.name, one.semantic, one.provenance) for one in surfaces
     ]
     for row, one in enumerate(surfaces):
         if one.parent is not None:
-            told[row]["parent"] = one.parent
-            told[one.parent].setdefault("children", []).append(row)
+            frame.link(told, row, one.parent)
     return told
-
-
-def _closed(boundaries: list[Any]) -> bool:
-    """Whether each edge is there once to and once fro."""
-    edges: Counter[tuple[int, int]] = Counter()
-    for rings in boundaries:
-        for ring in rings:
-            edges.update(pairwise([*ring, ring[0]]))
-    return bool(edges) and all(
-        count == 1 and edges[(end, start)] == 1 for (start, end), count in list(edges.items())
-    )
