@@ -11,8 +11,9 @@ from shapely.geometry import Point, Polygon
 from veduta.plan.document import Text
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.close import closed_spaces, wall_bodies
-from veduta.plan.rooms.drawn_round import drawn_walls, raster_of
+from veduta.plan.rooms.drawn_round import drawn_walls
 from veduta.plan.rooms.mend import mended
+from veduta.plan.rooms.paper import raster_of
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.graph import wall_graph
@@ -20,6 +21,7 @@ from veduta.plan.walls.pieces import Piece
 from veduta.plan.walls.solid import Thickness
 
 THICK = 20.0
+DOOR = 160.0
 LABEL = np.array([300.0, 250.0])
 OPEN = (500.0, 400.0)  # the lower right corner of a room from (100, 100)
 
@@ -48,7 +50,7 @@ def found_of(axes: list[Axis], sheet: Sheet) -> Found:
 
 def walls_around(axes: list[Axis], sheet: Sheet, label: NDArray[np.float64] = LABEL) -> list[Axis]:
     bodies = wall_bodies(wall_graph(axes), axes)
-    return drawn_walls(axes, found_of(axes, sheet), raster_of(bodies, sheet.faint), label)
+    return drawn_walls(axes, found_of(axes, sheet), raster_of(bodies, sheet.faint), label, DOOR)
 
 
 def text(words: str, x: float = 300.0, y: float = 250.0) -> Text:

@@ -26,6 +26,9 @@ from veduta.plan.openings.strip import Sheet, Strip, cut_strip
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.join import SAME_THICKNESS
 
+OUTLINED = 2.0
+"""The lines of glazing lie within so many thicknesses of a wall that is an outline."""
+
 ROWS = np.linspace(-1.2, 1.2, 13)
 """Where across the wall ink is compared, in half thicknesses."""
 
@@ -73,10 +76,49 @@ def with_unbroken(
     walls = _Walls(axes, sheet)
     done = []
     for number, axis in enumerate(axes):
-        spans = [] if axis.closing else walls.changed(number, LEAST_WIDTH * thin_px)
+        spans = _spans(axis, walls, number, thin_px)
         more = [one for span in spans if (one := _opening(axis, span, sheet, thin_px, sky))]
         done.append(replace(axis, openings=(*axis.openings, *more)))
     return done
+
+
+def _spans(axis: Axis, walls: _Walls, number: int, thin_px: float) -> list[tuple[int, int]]:
+    """Stretches of a wall that may be openings.
+
+    What closes a gap was judged there. Of an outline nothing but its line is drawn, so that it
+    differs from walls everywhere: glazing has a second line. So it has where a wall is glazed from
+    end to end: one that differs all along, and shows none, is a wall that is drawn otherwise.
+    """
+    if axis.closing:
+        return []
+    least_px = LEAST_WIDTH * thin_px
+    if axis.outline:
+        return doubled_stretches(_wide_strip(axis, walls.sheet, thin_px), least_px)
+    spans = walls.changed(number, least_px)
+    if not spans or axis.line.drawing == "single-line" or not _mostly(spans, axis.line.length_px):
+        return spans
+    doubled = doubled_stretches(_wide_strip(axis, walls.sheet, thin_px), least_px)
+    return spans if _mostly(doubled, MOST_WINDOW * axis.line.length_px) else []
+
+
+def _wide_strip(axis: Axis, sheet: Sheet, thin_px: float) -> Strip:
+    """A wall with what may be its other line beside it."""
+    line, wide_px = axis.line, OUTLINED * max(axis.line.thickness_px, thin_px)
+    return cut_strip(line.start, line.end, wide_px, sheet, 0.0, line.bulge)
+
+
+def doubled_stretches(strip: Strip, least_px: float) -> list[tuple[int, int]]:
+    """Columns from and to which two lines or more run along a wall, at least `least_px` long."""
+    near = np.abs(strip.steps) <= strip.half_px
+    ink = np.pad(strip.faint[near] > 0, ((1, 0), (0, 0)))
+    lines = (ink[1:] & ~ink[:-1]).sum(axis=0)
+    # Where all of it is dark it is solid, and what is crossed here and there is crossed.
+    doubled = median_filter((lines >= 2).astype(np.uint8), 2 * JOINED_PX + 1) > 0
+    return [
+        (int(low), int(high))
+        for low, high in zip(*runs(doubled), strict=True)
+        if high - low >= least_px
+    ]
 
 
 @dataclass(frozen=True)
@@ -111,10 +153,10 @@ class _Walls:
             return _changed(self._as_thick[number], self._alike(number), least_px, bars=False)
         own = self._as_pen[number]
         spans = _changed(own, list(self._as_pen.values()), least_px, bars=True)
-        if _mostly(spans, own):
+        if _mostly(spans, own.all.shape[1]):
             own = self._as_thick[number]
             spans = _changed(own, self._alike(number), least_px, bars=True)
-        return [] if _mostly(spans, own) else spans
+        return [] if _mostly(spans, own.all.shape[1]) else spans
 
     def _alike(self, number: int) -> list[_Across]:
         """Walls that are as thick."""
@@ -155,9 +197,9 @@ def _changed(
     return changed_stretches(own.all, usual_profile(bare), least_px, bars=bars)
 
 
-def _mostly(spans: Sequence[tuple[int, int]], own: _Across) -> bool:
+def _mostly(spans: Sequence[tuple[int, int]], length_px: float) -> bool:
     """Whether more of a wall is in these stretches than can be window."""
-    return bool(sum(high - low for low, high in spans) >= MOST_WINDOW * own.all.shape[1])
+    return sum(high - low for low, high in spans) >= MOST_WINDOW * length_px
 
 
 def _middle(strip: Strip) -> float:

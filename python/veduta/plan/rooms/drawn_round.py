@@ -9,18 +9,19 @@ outdoors as a wall is thick, with no known wall between, there is a wall.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import cv2
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely.geometry import LineString, Point, Polygon
+from shapely.geometry import LineString, Point
 
 from veduta.geometry.arcs import Arc, bulge_through
 from veduta.plan.document import WallDrawing
 from veduta.plan.openings.lines import runs
 from veduta.plan.rooms.levelled import between_stubs, levelled
+from veduta.plan.rooms.paper import COUNTER, MARGIN, Raster, with_strips, with_sweeps
+from veduta.plan.rooms.sweeps import Sweep, doors_in, without_sweeps
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.bows import look
 from veduta.plan.walls.find import Found
@@ -73,11 +74,11 @@ LINES = 0.5
 DEEP = 0.9
 """It is farther from the outdoors than this part of the thickest common wall's thickness."""
 
-COUNTER = 0.1
-"""What reaches nearer covers at most this part of what the room's paper does."""
+OUTLINE = 0.6
+"""What is drawn thinner than this part of thin walls is a line, and no two faces."""
 
-SWEPT = 1.15
-"""Arcs of doors part from a room what is at most so many times as wide as a door."""
+HIDDEN = 0.7
+"""Less than this part of a wall lies within others."""
 
 MOST_TURN = 0.9
 """The bulge of an arc: nearly half a circle."""
@@ -85,38 +86,23 @@ MOST_TURN = 0.9
 SLIGHT = 0.06
 """What bulges less is straight."""
 
-MARGIN = 4
-"""Paper around the sheet, in pixels."""
-
 Mask = NDArray[np.bool_]
 Points = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Raster:
-    """A sheet with a margin of MARGIN px: paper, how far it is from the outdoors and from walls.
-
-    `free` (h, w): the number of each pixel's piece of paper, of `count`; 0 on lines and walls, and
-    `outside` around the house. `outdoors`, `walls` (h, w): how far a pixel is from there.
-    """
-
-    free: NDArray[np.int32]
-    count: int
-    outside: int
-    outdoors: NDArray[np.float32]
-    walls: NDArray[np.float32]
-
-
-def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Points) -> list[Axis]:
+def drawn_walls(
+    axes: Sequence[Axis], found: Found, raster: Raster, label: Points, door_px: float
+) -> list[Axis]:
     """Walls around a label (2,) px that are drawn, but not among the axes; none if it is open.
 
     `raster` is that of the axes. What is as thick as lines alone is no wall. The thickness is that
-    of the nearest wall, so that the walls are `inferred`.
+    of the nearest wall, so that the walls are `inferred`. Doors about `door_px` wide are in them.
     """
     thin_px, outer_px = found.thin_px, found.thickness.most_px
     room = _room(raster, label, thin_px, outer_px)
     if room is None:
         return []
+    room, doors = _straight(room, found, door_px)
     # Where walls are single lines, windows in them are broader.
     thickest = max(THICKEST * outer_px, thin_px)
     walls = []
@@ -136,7 +122,10 @@ def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Point
         line = _laid(level, axes, thick)
         if min(LineString(one).length for one in (middle, line)) < LEAST * thin_px:
             continue
-        walls += [Axis(piece, (), "inferred") for piece in _pieces(line, thick, drawing)]
+        walls += [
+            Axis(one, doors_in(one, doors), "inferred", outline=deep < OUTLINE * thin_px)
+            for one in _pieces(line, thick, drawing)
+        ]
     return walls
 
 
@@ -147,12 +136,13 @@ def thin_outline(
     glazing, the front of a flat. None if paper leads from it to the outdoors.
 
     They are as thick as thin walls, on the far side of the lines, and `inferred`. What a door that
-    is `door_px` wide sweeps belongs to the room.
+    is about `door_px` wide sweeps belongs to the room, and the door is in the wall.
     """
     room = _room(raster, label, found.thin_px, found.thickness.most_px)
     if room is None:
         return []
-    whole = _with_sweeps(room, raster, door_px)
+    straight, doors = _straight(room, found, door_px)
+    whole = with_strips(with_sweeps(straight, raster, door_px), raster, found.thin_px)
     walls = []
     beside = max(2.0, BESIDE_WALL * found.thickness.most_px)
     for run in _stretches(whole, raster.walls > beside):
@@ -163,49 +153,27 @@ def thin_outline(
             continue
         line = _laid(levelled(middle, axes, found.thin_px), axes, found.thin_px)
         if LineString(line).length >= LEAST * found.thin_px:
-            pieces = _pieces(line, found.thin_px, drawing)
-            walls += [Axis(piece, (), "inferred") for piece in pieces]
+            walls += [
+                Axis(one, doors_in(one, doors), "inferred", outline=True)
+                for one in _pieces(line, found.thin_px, drawing)
+                if not _is_within_wall(one, raster)
+            ]
     return walls
 
 
-def _with_sweeps(room: Mask, raster: Raster, door_px: float) -> Mask:
-    """A room with what leaves of doors sweep in it, which their arcs part from its paper."""
-    size = 2 * max(1, round(SWEPT * door_px / 2)) + 1
-    wide = np.pad(room.astype(np.uint8), size)
-    shut = cv2.morphologyEx(wide, cv2.MORPH_CLOSE, np.ones((size, size), np.uint8))
-    whole = shut[size:-size, size:-size].astype(np.bool_) & (raster.walls > 0)
-    whole &= (raster.free != raster.outside) | room
-    _, labels = cv2.connectedComponents(whole.astype(np.uint8), connectivity=4)
-    inside = np.bincount(labels[room], minlength=1)
-    inside[0] = 0
-    return np.asarray(labels == int(inside.argmax()), dtype=np.bool_)
+def _straight(room: Mask, found: Found, door_px: float) -> tuple[Mask, list[Sweep]]:
+    """A room whose outline passes doors straight, and these in pixels of the sheet."""
+    straight, sweeps = without_sweeps(room, door_px, found.thickness.most_px)
+    return straight, [one.moved(-MARGIN) for one in sweeps]
 
 
-def raster_of(bodies: Sequence[Polygon], drawn: Mask, shut_px: int = 3) -> Raster:
-    """Of what is drawn on a sheet (h, w), and of the bodies of walls, their openings closed.
-
-    Gaps between lines that are narrower than `shut_px` are closed.
-    """
-    solid = np.zeros((drawn.shape[0] + 2 * MARGIN, drawn.shape[1] + 2 * MARGIN), np.uint8)
-    for body in bodies:
-        corners = np.round(np.asarray(body.exterior.coords) - 0.5 + MARGIN).astype(np.int32)
-        cv2.fillPoly(solid, [corners], 1)
-    # One can go all around, whatever is drawn at the border.
-    border = np.ones(solid.shape, np.bool_)
-    border[MARGIN:-MARGIN, MARGIN:-MARGIN] = False
-    solid[border] = 0
-    lines = solid.copy()
-    lines[MARGIN:-MARGIN, MARGIN:-MARGIN] |= drawn.astype(np.uint8)
-    lines = cv2.morphologyEx(lines, cv2.MORPH_CLOSE, np.ones((shut_px, shut_px), np.uint8))
-    lines[border] = 0
-    count, free = cv2.connectedComponents(1 - lines, connectivity=4)
-    outside = int(free[0, 0])
-    away = cv2.distanceTransform((free != outside).astype(np.uint8), cv2.DIST_L2, 5)
-    from_walls = cv2.distanceTransform(1 - solid, cv2.DIST_L2, 5)
-    return Raster(
-        np.asarray(free), count, outside,
-        np.asarray(away, np.float32), np.asarray(from_walls, np.float32),
-    )  # fmt: skip
+def _is_within_wall(piece: Piece, raster: Raster) -> bool:
+    """Whether most of a piece lies within walls that are known, where a stretch hooked onto one."""
+    line = LineString(piece.arc.points(STEP_RAD))
+    places = shapely.line_interpolate_point(line, np.linspace(0.0, 1.0, 41), normalized=True)
+    at = np.floor(shapely.get_coordinates(places)).astype(int) + MARGIN
+    at = np.clip(at, 0, np.array(raster.walls.shape[::-1]) - 1)
+    return bool((raster.walls[at[:, 1], at[:, 0]] == 0).mean() > HIDDEN)
 
 
 def _room(raster: Raster, label: Points, thin_px: float, outer_px: float) -> Mask | None:

@@ -25,10 +25,11 @@ from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.settle import USUAL_DOOR, usual_door
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.closing import UNDRAWN, Closing, apart
-from veduta.plan.rooms.drawn_round import Raster, drawn_walls, raster_of, thin_outline
+from veduta.plan.rooms.drawn_round import drawn_walls, thin_outline
 from veduta.plan.rooms.enclosed import Enclosed, enclosed_by
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.rooms.looker import Looker
+from veduta.plan.rooms.paper import Raster, raster_of
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.pieces import Piece
@@ -196,7 +197,7 @@ def _around(
     """Walls around a label that are drawn as such, or (thin) by a single line."""
     if thin:
         return thin_outline(axes, found, raster, label, door_px)
-    return drawn_walls(axes, found, raster, label)
+    return drawn_walls(axes, found, raster, label, door_px)
 
 
 def _axis(closing: Closing, thin_px: float, glazed_px: float) -> Axis:

@@ -33,13 +33,14 @@ class Axis:
     """A wall's whole centre line with its openings, before it is parted at junctions.
 
     `closing`: it was put where a wall is broken. Its origin is `inferred` where nothing is drawn
-    there that shows it.
+    there that shows it. `outline`: a single thin line is all that is drawn of it.
     """
 
     line: Piece
     openings: tuple[OnAxis, ...]
     origin: Origin = "measured"
     closing: bool = False
+    outline: bool = False
 
 
 def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
