@@ -98,6 +98,7 @@ def measure(kind: str, cases: int, path: Path) -> None:
         most_beside = beside
         fine = refused = failed = 0
         told: list[str] = []
+        begun_at = commit()["commit"]  # not where the checkout is by the end
         started = time.perf_counter()
         for number in range(cases):
             file.write_bytes(mutated(sound, number))
@@ -112,7 +113,7 @@ def measure(kind: str, cases: int, path: Path) -> None:
             if number % 50 == 0:
                 most_beside = max(most_beside, _reader_mb(limits))
         row = {
-            "kind": kind, "commit": commit()["commit"], "files": cases,
+            "kind": kind, "commit": begun_at, "files": cases,
             "read": fine, "refused": refused, "tracebacks": failed,
             "MB": round(_peak_mb(None) - before, 1),
             "MB of limits": round(max(most_beside, _reader_mb(limits)) - beside, 1),
