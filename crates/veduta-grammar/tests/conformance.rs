@@ -114,3 +114,29 @@ fn the_seed_can_be_set() {
     let none = crate::support::fault("Lot --> set(seedian, \"a\") A");
     assert!(none.contains("`seedian` is a number, not `a`"), "{none}");
 }
+
+#[test]
+fn turns_are_told_as_they_were_made() {
+    // The example of `convert`: a turn of -10, 70 and 0 degrees on a lot that stands turned about y is told as
+    // -10, 70 and what the lot is turned, and 0.
+    let said = |operations: &str, values: [&str; 3]| -> Vec<String> {
+        let rounded = values.map(|value| format!("print(rint(1e6 * {value}) / 1e6)"));
+        said(&format!("Lot --> {operations} {}", rounded.join(" ")))
+    };
+    let to_world =
+        ["x", "y", "z"].map(|axis| format!("convert({axis}, scope, world, orient, 0, 0, 0)"));
+    let to_world = [&to_world[0], &to_world[1], &to_world[2]].map(String::as_str);
+    let turned = "r(0, -46.5, 0) r(-10, 70, 0)";
+    assert_eq!(said(turned, to_world), ["-10", "23.5", "0"]);
+    let own = ["scope.rx", "scope.ry", "scope.rz"];
+    assert_eq!(said("r(10, 20, 30)", own), ["10", "20", "30"]);
+    // Setting one leaves the others.
+    assert_eq!(
+        said("r(10, 20, 30) set(scope.rx, 40)", own),
+        ["40", "20", "30"]
+    );
+    let given = "convert(scope, world, orient, [10, 20, 30])";
+    let back = [0, 1, 2].map(|k| format!("{given}[{k}]"));
+    let back = [&back[0], &back[1], &back[2]].map(String::as_str);
+    assert_eq!(said("", back), ["10", "20", "30"]);
+}

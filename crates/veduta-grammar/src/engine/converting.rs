@@ -1,11 +1,12 @@
 //! Places and directions from one frame to another.
 
-use glam::{DMat3, DVec3, EulerRot};
+use glam::{DMat3, DVec3};
 
 use super::shape_attributes::pivot;
 use super::state::State;
 use super::tree::Node;
 use super::value::Value;
+use crate::shape::{degrees_of, turn};
 
 /// `convert(from, to, pos | orient, [x, y, z])`, `convert(x | y | z, from, to, pos | orient, x, y,
 /// z)`: a place (m) or a turn (degrees, about x, y and z) of one frame as it is in another. The
@@ -30,10 +31,8 @@ pub fn convert(args: &[Value], state: &State, first: &Node) -> Result<Value, Str
     let found = match rest[2].to_string().as_str() {
         "pos" => to_axes.transpose() * (from + from_axes * given - to),
         "orient" => {
-            let [x, y, z] = given.to_array().map(f64::to_radians);
-            let turn = from_axes * DMat3::from_euler(EulerRot::XYZ, x, y, z);
-            let (x, y, z) = (to_axes.transpose() * turn).to_euler(EulerRot::XYZ);
-            DVec3::new(x.to_degrees(), y.to_degrees(), z.to_degrees())
+            let turned = from_axes * turn(given);
+            degrees_of(to_axes.transpose() * turned)
         }
         other => return Err(format!("`{other}` is neither pos nor orient")),
     };

@@ -1,13 +1,12 @@
 //! What expressions can ask of the current shape.
 
-use std::f64::consts::PI;
-
-use glam::{DMat3, DVec3, EulerRot};
+use glam::{DMat3, DVec3};
 
 use super::materials;
 use super::state::State;
 use super::tree::Node;
 use super::value::Value;
+use crate::shape::degrees_of;
 
 /// A shape attribute of the language.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,7 +109,7 @@ impl ShapeAttribute {
             Self::ScopePlace(axis) => {
                 Value::Number((axes.transpose() * (scope.origin - origin))[axis])
             }
-            Self::ScopeTurn(axis) => Value::Number(turn(axes.transpose() * scope.axes, axis)),
+            Self::ScopeTurn(axis) => Value::Number(degrees_of(axes.transpose() * scope.axes)[axis]),
             Self::SplitIndex => Value::Number(state.split.index as f64),
             Self::SplitTotal => Value::Number(state.split.total as f64),
             Self::CompIndex => Value::Number(state.comp.index as f64),
@@ -125,12 +124,14 @@ impl ShapeAttribute {
             Self::PivotPlace(axis) => {
                 Value::Number((object.axes.transpose() * (origin - object.origin))[axis])
             }
-            Self::PivotTurn(axis) => Value::Number(turn(object.axes.transpose() * axes, axis)),
+            Self::PivotTurn(axis) => {
+                Value::Number(degrees_of(object.axes.transpose() * axes)[axis])
+            }
             Self::TrimLevel => Value::Bool(state.extra.as_ref().is_some_and(|e| e.trims_level)),
             Self::TrimSteep => Value::Bool(!state.extra.as_ref().is_some_and(|e| e.keeps_steep)),
             Self::StartName => Value::Text(first.name.clone()),
             Self::StartPlace(axis) => Value::Number(object.origin[axis]),
-            Self::StartTurn(axis) => Value::Number(turn(object.axes, axis)),
+            Self::StartTurn(axis) => Value::Number(degrees_of(object.axes)[axis]),
         }
     }
 }
@@ -149,10 +150,4 @@ fn number_of(path: &[u32]) -> u32 {
     bytes.fold(0x811c_9dc5, |hash, byte| {
         (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
     })
-}
-
-/// The turn of axes about one of the frame that they are in (degrees).
-fn turn(axes: DMat3, axis: usize) -> f64 {
-    let (x, y, z) = axes.to_euler(EulerRot::XYZ);
-    [x, y, z][axis] * 180.0 / PI
 }

@@ -16,7 +16,7 @@ pub use components::{components, direction, is_selected, Component, Direction, K
 pub use connected::connected;
 pub use distances::box_distance;
 pub use form::{rectangle, Form, Geometry, TOLERANCE};
-pub use scope::{over, Scope};
+pub use scope::{degrees_of, over, turn, Scope};
 pub use selecting::{is_meant, Frames};
 pub use sizes::{cells, Cell, Pattern, Size, TooManyParts, SHORTEST_M};
 pub use splitting::split;

@@ -1,6 +1,6 @@
 //! The oriented box of a shape.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, EulerRot};
 
 /// An oriented box: the frame in which a shape is split, moved and measured (CGA's scope).
 ///
@@ -72,4 +72,17 @@ pub fn over(length: DVec3, size: DVec3) -> DVec3 {
             length[axis] / size[axis]
         }
     }))
+}
+
+/// A turn by degrees about x, y and z of a frame: about x first, then about y, then about z, each as
+/// the frame had them at first.
+pub fn turn(degrees: DVec3) -> DMat3 {
+    let [x, y, z] = degrees.to_array().map(f64::to_radians);
+    DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x)
+}
+
+/// The degrees that [`turn`] makes these axes of; about y from -90 to 90.
+pub fn degrees_of(axes: DMat3) -> DVec3 {
+    let (z, y, x) = axes.to_euler(EulerRot::ZYX);
+    DVec3::new(x, y, z).map(f64::to_degrees)
 }

@@ -8,9 +8,8 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
 use super::super::value::Value;
-use super::transform::turn;
 use super::{axes, number, value, word};
-use crate::shape::{Form, Geometry, Scope};
+use crate::shape::{turn, Form, Geometry, Scope};
 
 /// `alignScopeToAxes()`: the scope upright along the world's axes; `alignScopeToAxes(y)` with that
 /// axis alone as the world's, turned no more than that needs. `object.y` and `object.xyz` mean the

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DMat3, DVec3, EulerRot};
+use glam::{DMat3, DVec3};
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
@@ -15,7 +15,7 @@ use super::super::value::Value;
 use super::transform::place;
 use super::word;
 use crate::builtins::attributes;
-use crate::shape::Scope;
+use crate::shape::{degrees_of, turn, Scope};
 
 /// `set(name, value)`: a material's property, the place, turn or size of the scope, or an attribute of
 /// the rule file for this shape and its children; what chances are drawn from, here and in the shapes
@@ -97,11 +97,9 @@ fn set_scope(
             scope.origin = origin + axes * local;
         }
         _ => {
-            let (x, y, z) = (axes.transpose() * scope.axes).to_euler(EulerRot::XYZ);
-            let mut turns = [x, y, z];
-            turns[axis] = number.to_radians();
-            let [x, y, z] = turns;
-            scope.axes = axes * DMat3::from_euler(EulerRot::XYZ, x, y, z);
+            let mut degrees = degrees_of(axes.transpose() * scope.axes);
+            degrees[axis] = number;
+            scope.axes = axes * turn(degrees);
         }
     }
     place(frame, scope);

@@ -1,6 +1,6 @@
 //! Moving, turning and sizing the scope with what is in it.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
@@ -9,7 +9,7 @@ use super::super::run::Run;
 use super::scopes::mirror_along;
 use super::solids::reverse;
 use super::{axes, length, number, word};
-use crate::shape::Scope;
+use crate::shape::{turn, Scope};
 
 /// `t(x, y, z)`: along the scope's axes.
 pub fn move_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
@@ -126,11 +126,6 @@ fn lengths(
         found[axis] = length(run, op, first + axis, size[axis], frame)?;
     }
     Ok(found)
-}
-
-pub fn turn(degrees: DVec3) -> DMat3 {
-    let [x, y, z] = degrees.to_array().map(f64::to_radians);
-    DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x)
 }
 
 fn fault(op: &Operation, message: impl Into<String>) -> Fault {
