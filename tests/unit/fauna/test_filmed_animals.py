@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 
@@ -45,3 +46,20 @@ def test_a_snake_covers_what_its_axis_and_width_say() -> None:
     wide = 2.0 * film.halves["middle"] * film.lengths["body"]
     assert (area > 0.6 * wide).all()
     assert (area < 1.1 * wide).all()
+
+
+@pytest.mark.parametrize("kind", ["snake", "fish"])
+def test_a_body_is_as_wide_as_it_is_told_and_its_shadow_is_beside_it(kind: str) -> None:
+    plain = film_limbless(kind, 1, frames=3)  # type: ignore[arg-type]
+    film = film_limbless(kind, 1, frames=3, shadow=True)  # type: ignore[arg-type]
+    np.testing.assert_array_equal(film.masks, plain.masks)
+    axis = film.joints["axis"].reshape(3, -1, 2)
+    middle = axis[:, axis.shape[1] // 2]
+    deep = [cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5) for mask in film.masks]
+    for (x, y), away in zip(middle, deep, strict=True):
+        around = away[int(y) - 2 : int(y) + 3, int(x) - 2 : int(x) + 3]
+        assert abs(around.max() - film.halves["middle"]) < 0.8
+    light = film.frames.astype(int).sum(axis=3) - plain.frames.astype(int).sum(axis=3)
+    shaded = (light < -60) & ~film.masks
+    assert (shaded.sum(axis=(1, 2)) > 0.2 * film.masks.sum(axis=(1, 2))).all()
+    assert (light[:, :60] == 0).all()

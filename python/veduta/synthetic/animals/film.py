@@ -11,6 +11,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Frames = NDArray[np.uint8]
 _SHIFT = 4
+_FAT_PX = 0.35
+"""So much wider than they ought to be are the discs that OpenCV draws, measured by their areas."""
+_SHADE = 0.35
+"""How much of its light the ground loses in a shadow."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,10 +46,17 @@ class Filmed:
 
 
 def film(
-    tubes: list[Tube], size: tuple[int, int], random: np.random.Generator, *, grass: int = 0
+    tubes: list[Tube],
+    size: tuple[int, int],
+    random: np.random.Generator,
+    *,
+    grass: int = 0,
+    shadow: Floats | None = None,
 ) -> tuple[Frames, Frames, NDArray[np.bool_]]:
     """Frames of height and width `size` with tubes over each other in their order; what is behind
     them; and the masks.
+
+    shadow: (2, 3) from a pixel of the animal to where its shadow falls; None: there is none.
     """
     count = len(tubes[0].joints)
     rough = random.normal(150.0, 55.0, (*size, 3)).astype(np.float32)
@@ -55,20 +66,31 @@ def film(
     frames = np.empty((count, *size, 3), dtype=np.uint8)
     masks = np.zeros((count, *size), dtype=np.bool_)
     for row in range(count):
-        picture = ground.copy()
-        whole = np.zeros(size, np.uint8)
-        for tube in tubes:
-            mask = np.zeros(size, np.uint8)
-            _discs(mask, tube.joints[row], tube.half)
+        drawn = [_drawn(tube, row, size) for tube in tubes]
+        whole = np.maximum.reduce(drawn)
+        picture = ground.copy() if shadow is None else ground * _shaded(whole, shadow)
+        for tube, mask in zip(tubes, drawn, strict=True):
             share = cv2.GaussianBlur(mask, (0, 0), 0.7)[..., None].astype(np.float32) / 255.0
             picture = picture * (1.0 - share) + (coat * tube.light).astype(np.float32) * share
-            whole = np.maximum(whole, mask)
         masks[row] = whole > 127
         noisy = np.where(blades[..., None] > 0, np.float32(70.0), picture)
         noisy = noisy + random.normal(0.0, 4.0, picture.shape).astype(np.float32)
         frames[row] = np.clip(noisy, 0, 255).astype(np.uint8)
     behind = np.where(blades[..., None] > 0, np.float32(70.0), ground)
     return frames, np.clip(behind, 0, 255).astype(np.uint8), masks
+
+
+def _drawn(tube: Tube, row: int, size: tuple[int, int]) -> NDArray[np.uint8]:
+    mask = np.zeros(size, np.uint8)
+    _discs(mask, tube.joints[row], tube.half)
+    return mask
+
+
+def _shaded(whole: NDArray[np.uint8], shadow: Floats) -> NDArray[np.float32]:
+    """(h, w, 1) the share of its light that the ground keeps beside an animal."""
+    cast = cv2.warpAffine(whole, shadow, (whole.shape[1], whole.shape[0]))
+    soft = cv2.GaussianBlur(cast, (0, 0), 2.0)[..., None].astype(np.float32)
+    return np.asarray(1.0 - _SHADE * soft / np.float32(255.0), dtype=np.float32)
 
 
 def _discs(mask: NDArray[np.uint8], joints: Floats, half: Floats) -> None:
@@ -80,7 +102,8 @@ def _discs(mask: NDArray[np.uint8], joints: Floats, half: Floats) -> None:
             x, y = joints[first] * (1.0 - share) + joints[first + 1] * share
             reach = float(half[first] * (1.0 - share) + half[first + 1] * share)
             centre = (round((x - 0.5) * 2**_SHIFT), round((y - 0.5) * 2**_SHIFT))
-            cv2.circle(mask, centre, max(1, round(reach * 2**_SHIFT)), 255, -1, cv2.LINE_8, _SHIFT)
+            round_px = max(1, round((reach - _FAT_PX) * 2**_SHIFT))
+            cv2.circle(mask, centre, round_px, 255, -1, cv2.LINE_8, _SHIFT)
 
 
 def _blades(size: tuple[int, int], count: int, random: np.random.Generator) -> NDArray[np.uint8]:

@@ -24,9 +24,17 @@ class Proportions:
 
 
 def film_quadruped(
-    seed: int, *, frames: int = 48, cycle: float = 22.0, odd: bool = False
+    seed: int,
+    *,
+    frames: int = 48,
+    cycle: float = 22.0,
+    odd: bool = False,
+    shadow: bool = False,
 ) -> Filmed:
-    """One that walks to the right through a frame of 360 x 640. odd: as no plan has it."""
+    """One that walks to the right through a frame of 360 x 640. odd: as no plan has it.
+
+    shadow: it lies on the ground before the animal, a seventh as deep as that is high.
+    """
     random = np.random.default_rng(seed)
     like = Proportions(
         trunk=random.uniform(88.0, 100.0),
@@ -81,7 +89,10 @@ def film_quadruped(
     tubes.append(Tube(px(tail), np.array([0.06, 0.05, 0.035, 0.03]) * unit))
     tubes.append(Tube(body, wide))
     tubes += [Tube(px(legs[n]), thick, 1.12) for n in ("hind_leg_left", "front_leg_left")]
-    pictures, behind, masks = film(tubes, (360, 640), random, grass=12)
+    # Feet touch their shadow at the ground; what is above falls before it.
+    lying = np.array([[1.0, 0.12, -0.12 * ground], [0.0, -1.0 / 7.0, ground * (1.0 + 1.0 / 7.0)]])
+    cast = lying if shadow else None
+    pictures, behind, masks = film(tubes, (360, 640), random, grass=12, shadow=cast)
     places = {name: px([at])[:, 0] for name, at in joints.items()}
     length = (1.0 + like.neck + like.head + 0.9 * like.deep + 0.06) * unit
     return Filmed(
@@ -91,8 +102,18 @@ def film_quadruped(
     )  # fmt: skip
 
 
-def film_lizard(seed: int, *, frames: int = 40, cycle: float = 18.0, odd: bool = False) -> Filmed:
-    """One that runs to the right, seen from above, its spine bending from side to side."""
+def film_lizard(
+    seed: int,
+    *,
+    frames: int = 40,
+    cycle: float = 18.0,
+    odd: bool = False,
+    shadow: bool = False,
+) -> Filmed:
+    """One that runs to the right, seen from above, its spine bending from side to side.
+
+    shadow: it lies beside the body on the ground.
+    """
     random = np.random.default_rng(seed)
     unit = random.uniform(110.0, 125.0)
     tail_long = random.uniform(0.6, 0.7) if odd else random.uniform(0.95, 1.1)
@@ -139,7 +160,8 @@ def film_lizard(seed: int, *, frames: int = 40, cycle: float = 18.0, odd: bool =
     tubes = [Tube(px(one), np.array([0.04, 0.03, 0.025]) * unit, 0.9) for one in legs]
     tubes.append(Tube(px(tail), np.array([0.06, 0.045, 0.03, 0.018, 0.006]) * unit))
     tubes.append(Tube(px(chain), wide))
-    pictures, behind, masks = film(tubes, (360, 640), random)
+    cast = np.array([[1.0, 0.0, 5.0], [0.0, 1.0, 7.0]]) if shadow else None
+    pictures, behind, masks = film(tubes, (360, 640), random, shadow=cast)
     return Filmed(
         pictures, behind, masks, {name: px([at])[:, 0] for name, at in joints.items()}, cycle,
         0.96 * unit + 0.095 * unit, down, {"trunk": 0.6 * unit, "tail": tail_long * unit},

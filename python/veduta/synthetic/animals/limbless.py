@@ -9,12 +9,23 @@ import numpy as np
 from veduta.synthetic.animals.film import Filmed, Tube, film
 
 _POINTS = 120
+PLACES = {"fore": 0.25, "middle": 0.5, "hind": 0.75}
+"""Where along the body its half thickness is told."""
 
 
 def film_limbless(
-    kind: Literal["snake", "fish"], seed: int, *, frames: int = 40, odd: bool = False
+    kind: Literal["snake", "fish"],
+    seed: int,
+    *,
+    frames: int = 40,
+    odd: bool = False,
+    shadow: bool = False,
 ) -> Filmed:
-    """One that goes to the right through a frame of 360 x 640. odd: as no default body has it."""
+    """One that goes to the right through a frame of 360 x 640. odd: as no default body has it.
+
+    shadow: it lies beside the body on the ground. The joint `axis` has all points of a frame in one
+    row: (t, 2 n).
+    """
     random = np.random.default_rng(seed)
     cycle = random.uniform(14.0, 20.0)
     along = np.linspace(0.0, 1.0, _POINTS)
@@ -34,9 +45,14 @@ def film_limbless(
     chain = np.concatenate([np.zeros((frames, 1, 2)), np.cumsum(step[:, :-1], axis=1)], axis=1)
     middle = np.stack([320.0 + 2.6 * (time - 0.5 * frames), np.full(frames, 180.0)], axis=1)
     chain = chain - chain.mean(axis=1, keepdims=True) + middle[:, None]
-    pictures, behind, masks = film([Tube(chain, half)], (360, 640), random)
+    cast = np.array([[1.0, 0.0, 0.5 * half.max()], [0.0, 1.0, 0.5 * half.max() + 2.0]])
+    pictures, behind, masks = film(
+        [Tube(chain, half)], (360, 640), random, shadow=cast if shadow else None
+    )
     joints = {"axis": chain.reshape(frames, -1), "head": chain[:, 0], "tail": chain[:, -1]}
     return Filmed(
         pictures, behind, masks, joints, cycle, long, lengths={"body": long},
-        halves={"middle": float(half[_POINTS // 2])},
+        halves={
+            name: float(half[round(share * (_POINTS - 1))]) for name, share in PLACES.items()
+        },
     )  # fmt: skip
