@@ -61,8 +61,8 @@ def main() -> None:
     notes = [
         "Drawn clips: veduta.synthetic.animals, which shares no function with the fit; silhouettes"
         " are found in the footage against its background, with noise, a shadow and grass in it."
-        " Every fourth animal has proportions as no plan has them. Which front leg goes with which hind leg"
-        " silhouettes do not tell: each pair is compared the way that fits better. None of"
+        " Every fourth animal has proportions as no plan has them. Which front leg goes with which"
+        " hind leg silhouettes do not tell: each pair is compared the way that fits better. None of"
         f" these clips (seeds from {FIRST}) was looked at while the fit was made, but two: in seeds"
         " 105 and (a lizard) 104 it was seen that legs stay in a wrong phase.",
         "Cat: silhouettes from its left side alone, drawn by OpenCV from the 35 meshes; the model"

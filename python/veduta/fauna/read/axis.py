@@ -141,13 +141,26 @@ def _centred(points: Floats, soft: NDArray[np.float32]) -> tuple[Floats, Floats]
     for side in (1.0, -1.0):
         probes = points[:, None] + side * offsets[None, :, None] * normal[:, None]
         inside = _at(soft, probes.reshape(-1, 2)).reshape(len(points), -1)
-        out = inside < 0.5
-        sides.append(np.where(out.any(axis=1), offsets[out.argmax(axis=1)], offsets[-1]))
+        sides.append(_outline(inside, offsets))
     shift = 0.5 * (sides[0] - sides[1])
     half = 0.5 * (sides[0] + sides[1])
     # The ends have no sides: they stay where the line leaves the silhouette.
     shift[:2], shift[-2:] = 0.0, 0.0
     return points + gaussian_filter1d(shift, 1.0)[:, None] * normal, half
+
+
+def _outline(inside: Floats, offsets: Floats) -> Floats:
+    """(n,) how far it is to where the body ends, between two of the offsets (k,) at which `inside`
+    (n, k) is known; the last one where it does not end.
+    """
+    out = inside < 0.5
+    row = np.arange(len(inside))
+    after = out.argmax(axis=1)
+    before = np.maximum(after - 1, 0)
+    drop = np.maximum(inside[row, before] - inside[row, after], 1e-9)
+    share = np.clip((inside[row, before] - 0.5) / drop, 0.0, 1.0)
+    there = offsets[before] + share * (offsets[after] - offsets[before])
+    return np.where(out.any(axis=1), there, offsets[-1])
 
 
 def _at(soft: NDArray[np.float32], points: Floats) -> Floats:
