@@ -13,6 +13,7 @@ from walking import walking_limbed
 
 from veduta.fauna.build.limbed import build_limbed
 from veduta.fauna.build.walker import limbed_walker
+from veduta.fauna.document.limbed import Swing
 from veduta.fauna.motion import transfer
 from veduta.fauna.motion.carried import Joints, composed
 from veduta.fauna.motion.figure import Floats
@@ -148,3 +149,20 @@ def test_the_way_is_gone_whole_and_its_speed_has_no_jump() -> None:
 def test_a_curve_goes_on_straight_beyond_its_ends() -> None:
     curve = curve_of(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), closed=False)
     np.testing.assert_allclose(curve.at(np.array([-1.0, 0.5, 3.0]))[:, 0], [-1.0, 0.5, 3.0])
+
+
+def test_the_centre_of_a_body_that_bows_goes_along_the_path() -> None:
+    animal = walking_limbed(plan="lizard")
+    gait = animal.gaits[0]
+    bows = [
+        Swing(segment=name, cos=[size], sin=[0.0], low=-abs(size), high=abs(size))
+        for name, size in (("body_0", 0.17), ("body_1", -0.34))
+    ]
+    bowed = gait.model_copy(update={"swings": [*gait.swings, *bows]})
+    feet = [step.limb for step in gait.feet]
+    poses = animal.poses.model_copy(update={"feet": feet, "down": [[1] * 4, [0] * 4]})
+    bent = animal.model_copy(update={"gaits": [bowed], "poses": poses})
+    lizard = limbed_walker(build_limbed(bent))
+    assert lizard is not None
+    away = _walk(lizard, GROUNDS["flat"]).aside_m
+    assert 0.005 * lizard.length_m < away < 0.02 * lizard.length_m

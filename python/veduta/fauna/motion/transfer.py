@@ -34,6 +34,11 @@ from veduta.fauna.motion.steps import (
 from veduta.fauna.motion.whole_path import Curve, Pace
 from veduta.place.skin import Clip, Contact, Skin
 
+_SIMPSON = (1.0, 4.0, 1.0)
+"""Weights of hips, middle and shoulders in the trunk's centre: it bows smoothly, though its bones
+are straight.
+"""
+
 
 @dataclass(frozen=True)
 class TransferLooks:
@@ -227,12 +232,36 @@ def _bent(
 
 
 def _off_the_path(walker: Walker, places: Floats, line: Curve | Pivot, way: Floats) -> Floats:
-    """(t, 2) from the path to the body's middle: that of where its legs hang, or of all joints of a
-    body without legs.
+    """(t, 2) from the path to the body's centre: that of the spine between the legs, along which it
+    may bow to one side; of a body without legs, of all joints.
     """
-    rows = [leg.joints[0] for leg in walker.legs] or np.flatnonzero(walker.spine).tolist()
-    there = line.at(way[:, None] + walker.skin.rest[rows, 0, 3])
-    return np.asarray((places[:, rows, :2] - there).mean(axis=1))
+    if not walker.legs:
+        rows = np.flatnonzero(walker.spine).tolist()
+        there = line.at(way[:, None] + walker.skin.rest[rows, 0, 3])
+        return np.asarray((places[:, rows, :2] - there).mean(axis=1))
+    arcs = np.linspace(*_between_legs(walker), len(_SIMPSON))
+    off = [_spine_at(walker, places, float(at)) - line.at(way + at) for at in arcs]
+    return np.asarray(np.average(off, axis=0, weights=_SIMPSON))
+
+
+def _between_legs(walker: Walker) -> tuple[float, float]:
+    """From where the hindmost legs hang to where the foremost do, m ahead of the root; of a body
+    without legs, from its end to its tip.
+    """
+    ahead = walker.skin.rest[:, 0, 3]
+    ends = ahead[[leg.joints[0] for leg in walker.legs] or np.flatnonzero(walker.spine)]
+    return float(ends.min()), float(ends.max())
+
+
+def _spine_at(walker: Walker, places: Floats, at: float) -> Floats:
+    """(t, 2) where the spine lies that is so far (m) ahead of the root at rest."""
+    ahead = walker.skin.rest[:, 0, 3]
+    rows = np.flatnonzero(walker.spine)
+    rows = rows[np.argsort(ahead[rows], kind="stable")]
+    after = int(np.clip(np.searchsorted(ahead[rows], at), 1, len(rows) - 1))
+    first, second = rows[after - 1], rows[after]
+    share = (at - ahead[first]) / max(float(ahead[second] - ahead[first]), 1e-9)
+    return np.asarray((1.0 - share) * places[:, first, :2] + share * places[:, second, :2])
 
 
 def _middles(skin: Skin) -> Floats:
@@ -346,14 +375,4 @@ def _reaching(curve: Curve, length_m: float) -> Floats:
 
 def _middle(walker: Walker, laid: Joints) -> Floats:
     """(t, 2) the middle of the spine between the legs; of a body without legs, of all of it."""
-    ahead = walker.skin.rest[:, 0, 3]
-    rows = np.flatnonzero(walker.spine)
-    rows = rows[np.argsort(ahead[rows], kind="stable")]
-    ends = ahead[[leg.joints[0] for leg in walker.legs] or rows]
-    at = 0.5 * float(ends.min() + ends.max())
-    after = int(np.clip(np.searchsorted(ahead[rows], at), 1, len(rows) - 1))
-    first, second = rows[after - 1], rows[after]
-    share = (at - ahead[first]) / max(float(ahead[second] - ahead[first]), 1e-9)
-    return np.asarray(
-        (1.0 - share) * laid.places[:, first, :2] + share * laid.places[:, second, :2]
-    )
+    return _spine_at(walker, laid.places, 0.5 * sum(_between_legs(walker)))
