@@ -8,7 +8,9 @@ What tells a wall from a bed's head, a wardrobe or a pane, in this order:
    line parts from it is an opening, and the next one is wall again.
 3. Between open doors stand pieces of wall that touch nothing: they are as broad as a wall and in
    line with one.
-4. Where much stands free in the rooms that is as broad as walls are, it is walls, too.
+4. A long straight cell between two rooms that is as broad as a wall, and whose end stands against
+   the face of one, is a wall: faces run on where a wall meets them.
+5. Where much stands free in the rooms that is as broad as walls are, it is walls, too.
 """
 
 from __future__ import annotations
@@ -70,6 +72,10 @@ END = 1.7
 
 IN_LINE_FARTHEST = 30.0
 """A piece of wall is in line with one that is at most so many times its breadth away."""
+
+FACE_PX, BEHIND = 2.0, 3.0
+"""The inside of a wall against which another stands is farther than the line of its face, and
+nearer than so many breadths of that."""
 
 FREE = 3.0
 """Walls that stand free are so many times as long as broad."""
@@ -233,7 +239,26 @@ class _Sorting:
             beside = [other for other, _ in self.cells.beside.get(one, []) if self.opening[other]]
             if any(one in self._at_ends(other) for other in beside):
                 self.wall[one] = new = True
-        return new
+        return new or self._stand_against_faces(fitting)
+
+    def _stand_against_faces(self, fitting: Iterable[int]) -> bool:
+        """Cells that stand against the face of a wall are walls; whether any were found."""
+        left = [one for one in fitting if not self.wall[one] and not self.opening[one]]
+        new = [one for one in left if self._stands_against_a_face(one)]
+        self.wall[new] = True
+        return bool(new)
+
+    def _stands_against_a_face(self, cell: int) -> bool:
+        """Whether a wall lies at once behind an end of a long straight cell between two rooms."""
+        cells = self.cells
+        if cells.length[cell] < LONG * cells.breadth[cell] or not self._is_straight(cell):
+            return False
+        if not self._parts_rooms(cell):
+            return False
+        centre, along, long, _ = self.middle(cell)
+        steps = long / 2 + np.arange(FACE_PX, BEHIND * max(self.even[cell][0]) + 2 * FACE_PX)
+        ahead = (self._label(centre + side * step * along) for side in (1, -1) for step in steps)
+        return any(self.wall[one] for one in ahead)
 
     def _at_ends(self, cell: int) -> list[int]:
         """Narrow cells with which it shares a line about as long as itself is broad."""
