@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from record import Value, keep_or_print
 
-from veduta.fauna.document.schema import Source
+from veduta.fauna.document.schema import Slice, Source
 from veduta.fauna.motion.angles import equal_steps
 from veduta.fauna.motion.wave import swimming_wave
 from veduta.fauna.options import FaunaOptions
@@ -77,7 +77,8 @@ def measured(film: Filmed) -> Row:
     away = np.linalg.norm(axes - truth, axis=2) / film.length_px
     long = np.linalg.norm(np.diff(found.tracked.points, axis=1), axis=2).sum(axis=1)
     length_px = float(np.median(long))
-    wave = swimming_wave(found.angles, found.tracked.frame * FRAME_S)
+    times_s = np.asarray(found.tracked.frame * FRAME_S, dtype=np.float64)
+    wave = swimming_wave(found.angles, times_s)
     return {
         "used": len(found.axes) / count, "points": float((away < 0.05).mean()),
         "point": float(np.median(away)), "length": abs(length_px / film.length_px - 1.0),
@@ -86,7 +87,7 @@ def measured(film: Filmed) -> Row:
     }  # fmt: skip
 
 
-def _widths(film: Filmed, slices: list, length_px: float) -> float:  # type: ignore[type-arg]
+def _widths(film: Filmed, slices: list[Slice], length_px: float) -> float:
     at = [one.at for one in slices]
     half = [one.half_width * length_px for one in slices]
     off = [abs(np.interp(PLACES[name], at, half) / one - 1.0) for name, one in film.halves.items()]

@@ -160,7 +160,7 @@ def _outline(inside: Floats, offsets: Floats) -> Floats:
     drop = np.maximum(inside[row, before] - inside[row, after], 1e-9)
     share = np.clip((inside[row, before] - 0.5) / drop, 0.0, 1.0)
     there = offsets[before] + share * (offsets[after] - offsets[before])
-    return np.where(out.any(axis=1), there, offsets[-1])
+    return np.asarray(np.where(out.any(axis=1), there, offsets[-1]), dtype=np.float64)
 
 
 def _at(soft: NDArray[np.float32], points: Floats) -> Floats:
