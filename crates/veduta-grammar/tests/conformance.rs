@@ -140,3 +140,71 @@ fn turns_are_told_as_they_were_made() {
     let back = [&back[0], &back[1], &back[2]].map(String::as_str);
     assert_eq!(said("", back), ["10", "20", "30"]);
 }
+
+#[test]
+fn scopes_are_turned_and_moved_in_named_frames() {
+    let place = |operations: &str| -> Vec<String> {
+        let values = ["x", "y", "z"].map(|axis| {
+            format!("print(rint(1e6 * convert({axis}, scope, world, pos, 0, 0, 0)) / 1e6)")
+        });
+        said(&format!("Lot --> {operations} {}", values.join(" ")))
+    };
+    let turn = |operations: &str| -> Vec<String> {
+        let values = ["x", "y", "z"].map(|axis| {
+            format!("print(rint(1e6 * convert({axis}, scope, world, orient, 0, 0, 0)) / 1e6)")
+        });
+        said(&format!("Lot --> {operations} {}", values.join(" ")))
+    };
+    // The origin of the scope stays.
+    assert_eq!(
+        place("t(2, 0, 1) rotate(rel, scope, 0, 90, 0)"),
+        ["2", "0", "1"]
+    );
+    assert_eq!(
+        place("t(2, 0, 1) rotate(abs, world, 0, 90, 0)"),
+        ["2", "0", "1"]
+    );
+    assert_eq!(
+        turn("r(0, 30, 0) rotate(abs, world, 0, 60, 0)"),
+        ["0", "60", "0"]
+    );
+    assert_eq!(
+        turn("r(0, 30, 0) rotate(rel, world, 0, 60, 0)"),
+        ["0", "90", "0"]
+    );
+    // About the axes of the lot, and about those of the scope, which has been turned about x.
+    assert_eq!(
+        turn("r(40, 0, 0) rotate(rel, object, 0, 20, 0)"),
+        ["40", "20", "0"]
+    );
+    assert_eq!(
+        turn("r(40, 0, 0) rotate(rel, pivot, 0, 20, 0)"),
+        ["40", "20", "0"]
+    );
+    assert_ne!(
+        turn("r(40, 0, 0) rotate(rel, scope, 0, 20, 0)"),
+        ["40", "20", "0"]
+    );
+    assert_eq!(
+        place("t(2, 0, 1) r(0, 90, 0) translate(rel, scope, 1, 0, 0)"),
+        ["2", "0", "0"]
+    );
+    assert_eq!(
+        place("t(2, 0, 1) r(0, 90, 0) translate(rel, object, 1, 0, 0)"),
+        ["3", "0", "1"]
+    );
+    assert_eq!(
+        place("t(2, 0, 1) translate(abs, object, 5, 0, 0)"),
+        ["5", "0", "0"]
+    );
+    // In a wall, its own corner is the pivot.
+    let wall =
+        "Lot --> extrude(4) comp(f) { right : t(1, 1, 0) translate(abs, pivot, 0, 3, 0) A } \
+                A --> print(scope.tx) print(scope.ty) print(scope.elevation)";
+    assert_eq!(said(wall), ["0", "3", "3"]);
+    // The same where nothing tells of the pivot.
+    let dark = "Lot --> extrude(4) comp(f) { right : t(1, 1, 0) translate(abs, pivot, 0, 3, 0) B. | all : NIL }";
+    let tree = tree(dark);
+    let leaf = tree.leaves().next().unwrap();
+    assert_eq!(leaf.state.form.scope.origin.to_array(), [10.0, 3.0, 6.0]);
+}

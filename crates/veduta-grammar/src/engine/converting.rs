@@ -46,7 +46,7 @@ pub fn convert(args: &[Value], state: &State, first: &Node) -> Result<Value, Str
 }
 
 /// Origin and axes of a frame in the world.
-fn frame_named(name: &str, state: &State, first: &Node) -> Result<(DVec3, DMat3), String> {
+pub fn frame_named(name: &str, state: &State, first: &Node) -> Result<(DVec3, DMat3), String> {
     let scope = &state.form.scope;
     let object = &first.state.form.scope;
     Ok(match name {

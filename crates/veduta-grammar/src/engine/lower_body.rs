@@ -119,7 +119,10 @@ impl Lowering<'_> {
                     self.tells_pivot |= self.text(*name).starts_with("scope.");
                     Arg::Word(attribute.unwrap_or_else(|| self.shared(*name)))
                 }
-                (_, Some(word)) => Arg::Word(word),
+                (_, Some(word)) => {
+                    self.tells_pivot |= word.as_ref() == "pivot";
+                    Arg::Word(word)
+                }
                 (_, None) => {
                     let (sizing, expr) = self.sized(arg);
                     Arg::Value(sizing, expr)

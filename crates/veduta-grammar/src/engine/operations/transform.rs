@@ -1,8 +1,9 @@
 //! Moving, turning and sizing the scope with what is in it.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::super::code::{Arg, Operation};
+use super::super::converting::frame_named;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
@@ -49,42 +50,49 @@ pub fn turn_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
     Ok(())
 }
 
-/// `translate(mode, space, x, y, z)`: in the scope's directions or the world's.
+/// `translate(mode, frame, x, y, z)`: `rel` by this much along the frame's axes, `abs` to this place in the
+/// frame: `scope`, `pivot`, `object` (the start shape's scope) or `world`.
 pub fn translate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let mode = word(run, op, 0, frame)?;
-    let space = word(run, op, 1, frame)?;
+    let (from, axes) = named(run, op, 1, frame)?;
     let given = lengths(run, op, 2, frame)?;
     let scope = frame.state.form.scope;
-    let world = match space.as_ref() {
-        "world" => given,
-        _ => scope.axes * given,
+    let origin = match mode.as_ref() {
+        "abs" => from + axes * given,
+        _ => scope.origin + axes * given,
     };
-    let target = match (mode.as_ref(), space.as_ref()) {
-        ("abs", "world") => given,
-        ("abs", _) => return Err(fault(op, "an absolute place is one in the world")),
-        _ => scope.origin + world,
-    };
-    let origin = target;
     place(frame, Scope { origin, ..scope });
     Ok(())
 }
 
-/// `rotate(mode, space, x, y, z)`: degrees about the middle of the scope.
+/// `rotate(mode, frame, x, y, z)`: degrees about the frame's axes, x first; the scope's origin stays.
+/// `rel` turns the scope by this much, `abs` so that it stands in the frame as told.
 pub fn rotate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let mode = word(run, op, 0, frame)?;
-    let space = word(run, op, 1, frame)?;
+    let (_, axes) = named(run, op, 1, frame)?;
     let mut degrees = DVec3::ZERO;
     for axis in 0..3 {
         degrees[axis] = number(run, op, 2 + axis, frame)?;
     }
     let scope = frame.state.form.scope;
-    let wanted = match (mode.as_ref(), space.as_ref()) {
-        ("abs", _) => scope.axes.transpose() * turn(degrees),
-        (_, "world") => scope.axes.transpose() * turn(degrees) * scope.axes,
-        _ => turn(degrees),
+    let wanted = match mode.as_ref() {
+        "abs" => axes * turn(degrees),
+        _ => axes * turn(degrees) * axes.transpose() * scope.axes,
     };
-    place(frame, scope.turned(wanted, DVec3::splat(0.5)));
+    let by = scope.axes.transpose() * wanted;
+    place(frame, scope.turned(by, DVec3::ZERO));
     Ok(())
+}
+
+/// Origin and axes of the frame that an argument names.
+fn named(
+    run: &mut Run<'_>,
+    op: &Operation,
+    index: usize,
+    frame: &mut Frame,
+) -> Result<(DVec3, DMat3), Fault> {
+    let name = word(run, op, index, frame)?;
+    frame_named(&name, &frame.state, run.first()).map_err(|message| fault(op, message))
 }
 
 /// `center(axes)`: the middle of the scope to the middle of that of the shape the rule began with.
