@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from veduta.plan.compose import Named, compose_storey
-from veduta.plan.document import PlanDocument, Scale, Sheet, Storey
+from veduta.plan.document import PlanDocument, Scale, Sheet, Storey, Text
 from veduta.plan.doubts import position_notes
-from veduta.plan.drawn import Drawn, DrawnRoom
+from veduta.plan.drawn import Cleaned, Drawn, DrawnRoom
 from veduta.plan.fittings.find import find_fittings, fitting_rooms
 from veduta.plan.load import LARGEST_M, size_of
 from veduta.plan.names.guess import RoomFacts
@@ -190,13 +190,15 @@ def _storey(
             *_strays(drawn),
         ],
     )
-    check_house(storey, drawing.label)
+    walls_alone = check_house(storey, drawing.label)
     if size_of(storey) > LARGEST_M:
         fault = f"is {size_of(storey):.0f} m from end to end; {LARGEST_M:.0f} m are the most"
         raise InputError(drawing.label, fault, "Give another scale with --scale.")
     sheet = read.of_file(storey.sheet)
     notes = [*position_notes(sheet), *storey.notes]
-    return storey.model_copy(update={"sheet": sheet, "notes": notes, "doubts": [*read.doubts]})
+    return storey.model_copy(
+        update={"sheet": sheet, "notes": notes, "doubts": [*walls_alone, *read.doubts]}
+    )
 
 
 def _read_pictures(
@@ -214,8 +216,8 @@ def _read_pictures(
         step.counts["texts"] = len(sheet.texts)
     progress("walls, openings, rooms", 0.0)
     with timed_step(steps, "walls, openings, rooms") as step:
-        plans = storeys_drawn(*cleaned_sheet(sheet.pixels, sheet.texts, drawing.label))
-        drawn = _drawn_plans(plans, drawing)
+        cleaned, texts = cleaned_sheet(sheet.pixels, sheet.texts, drawing.label)
+        plans, drawn = _drawn_storeys(cleaned, texts, drawing)
         step.counts |= _counts(*drawn)
     height, width = sheet.pixels.shape[:2]
     sizes = [_drawn_sizes(one, scan) for one in drawn]
@@ -238,6 +240,23 @@ def _read_pictures(
         )
         for index, one in enumerate(drawn)
     ]
+
+
+def _drawn_storeys(
+    cleaned: Cleaned, texts: Sequence[Text], drawing: Drawing
+) -> tuple[list[StoreyDrawing], list[Drawn]]:
+    """The storeys of a sheet, and what was found in each.
+
+    What no title parts and closes no room anywhere is one plan: walls alone, as of a structure,
+    leave blank strips between them, too.
+    """
+    plans = storeys_drawn(cleaned, texts)
+    drawn = _drawn_plans(plans, drawing)
+    titled = any(plan.title is not None for plan in plans)
+    if len(drawn) > 1 and not titled and not any(one.rooms for one in drawn):
+        plans = [StoreyDrawing(cleaned, tuple(texts), None)]
+        drawn = _drawn_plans(plans, drawing)
+    return plans, drawn
 
 
 def _drawn_plans(plans: Sequence[StoreyDrawing], drawing: Drawing) -> list[Drawn]:

@@ -26,32 +26,40 @@ class LeastHouse:
     windows: int = 12
     apart: float = 0.5
     """Of the ends of walls, so many are free where only walls that bear are drawn."""
+    opened: float = 0.25
+    """And for so many of them, at most, something looks like a window: no strokes of a sketch."""
 
 
 LEAST = LeastHouse()
 
 
-def check_house(storey: Storey, subject: str, least: LeastHouse = LEAST) -> None:
-    """NotFoundError with the reason where what was found on a sheet cannot be a storey."""
+def check_house(storey: Storey, subject: str, least: LeastHouse = LEAST) -> list[str]:
+    """NotFoundError with the reason where what was found on a sheet cannot be a storey.
+
+    Drawings of the bearing walls alone are built as what they are, walls without rooms: what is
+    returned must be said of them.
+    """
     fault = _fault(storey, least)
     if fault is None:
-        return
-    remedy = "Give a cleaner or larger picture of the plan alone, or its scale with --scale."
+        return []
     if not storey.rooms and _stand_apart(storey, least):
-        fault = (
-            f"{len(storey.walls)} walls that mostly stand apart and close no room, as drawings do"
-            " that show the bearing walls or columns alone"
-        )
-        remedy = "Give the plan that shows all walls of the rooms, with their doors and windows."
+        return [
+            f"No house to walk in: {len(storey.walls)} walls that mostly stand apart and close no"
+            " room, as drawings do that show the bearing walls or columns alone. They are built as"
+            " they stand. For a house, give the plan that shows all walls of the rooms, with their"
+            " doors and windows."
+        ]
+    remedy = "Give a cleaner or larger picture of the plan alone, or its scale with --scale."
     raise NotFoundError("a house", f"{subject} gives {fault}", remedy)
 
 
 def _stand_apart(storey: Storey, least: LeastHouse) -> bool:
-    """Whether walls mostly end where no other wall is, and nothing opens in them."""
+    """Whether walls mostly end where no other wall is, and hardly anything opens in them."""
     free = {one.id for one in storey.junctions if one.type == "end"}
     ends = [name for wall in storey.walls for name in (wall.start, wall.end)]
     doors = any(one.kind == "door" for one in storey.openings)
-    return not doors and sum(name in free for name in ends) >= least.apart * max(1, len(ends))
+    opened = doors or len(storey.openings) > least.opened * len(storey.walls)
+    return not opened and bool(ends) and sum(n in free for n in ends) >= least.apart * len(ends)
 
 
 def _fault(storey: Storey, least: LeastHouse) -> str | None:
