@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.colmap_model import ColmapCamera, ColmapImage, ColmapPoints
+from veduta.geometry.quaternions import quaternions_of
 
 SPARSE, IMAGES, STEREO = "sparse", "images", "stereo"
 KIND = "geometric"
@@ -52,21 +53,8 @@ def write_workspace(
 
 
 def quaternion(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(4,) w, x, y, z of a (3, 3) rotation: the eigenvector of Bar-Itzhack's matrix (2000)."""
-    xx, yx, zx = rotation[:, 0]
-    xy, yy, zy = rotation[:, 1]
-    xz, yz, zz = rotation[:, 2]
-    form = np.array(
-        [
-            [xx - yy - zz, 0.0, 0.0, 0.0],
-            [yx + xy, yy - xx - zz, 0.0, 0.0],
-            [zx + xz, zy + yz, zz - xx - yy, 0.0],
-            [zy - yz, xz - zx, yx - xy, xx + yy + zz],
-        ]
-    )
-    vector = np.linalg.eigh(form, UPLO="L")[1][:, -1]
-    turned = vector[[3, 0, 1, 2]]
-    return np.asarray(turned if turned[0] >= 0.0 else -turned)
+    """(4,) w, x, y, z of a (3, 3) rotation, as COLMAP orders them."""
+    return np.asarray(quaternions_of(rotation[None])[0][[3, 0, 1, 2]])
 
 
 def _image(one: ColmapImage) -> tuple[str, str]:
