@@ -28,6 +28,8 @@ class LeastHouse:
     """Of the ends of walls, so many are free where only walls that bear are drawn."""
     opened: float = 0.25
     """And for so many of them, at most, something looks like a window: no strokes of a sketch."""
+    alone: int = 4
+    """Fewer walls without rooms are no structure: stray lines are free at their ends, too."""
 
 
 LEAST = LeastHouse()
@@ -42,7 +44,8 @@ def check_house(storey: Storey, subject: str, least: LeastHouse = LEAST) -> list
     fault = _fault(storey, least)
     if fault is None:
         return []
-    if not storey.rooms and _stand_apart(storey, least):
+    many = len(storey.walls) >= least.alone
+    if many and not storey.rooms and _stand_apart(storey, least):
         return [
             f"No house to walk in: {len(storey.walls)} walls that mostly stand apart and close no"
             " room, as drawings do that show the bearing walls or columns alone. They are built as"

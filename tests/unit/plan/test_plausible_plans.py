@@ -138,6 +138,9 @@ def test_walls_that_stand_apart_are_called_bearing_walls() -> None:
     (said,) = check_house(apart, "columns.png")
     assert "bearing walls or columns alone" in said
     assert "all walls of the rooms" in said
+    few = apart.model_copy(update={"walls": walls[:3]})
+    with pytest.raises(NotFoundError, match="3 walls and 0 windows, but no room"):
+        check_house(few, "strokes.png")
 
 
 def test_walls_that_meet_around_no_room_are_no_house() -> None:
