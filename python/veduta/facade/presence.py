@@ -34,6 +34,6 @@ def require_building(evidence: Evidence) -> None:
         raise NotFoundError(
             "a facade",
             f"only {100 * aligned:.0f} % of its outlines are upright or level, as a building's "
-            f"are; a picture of no building has {200 * _HALF_ANGLE_DEG / 90:.0f} %",
+            f"are; a picture of mere noise has {200 * _HALF_ANGLE_DEG / 90:.0f} %",
             REMEDY,
         )

@@ -110,7 +110,10 @@ def plan_report(
 ) -> tuple[Report, bytes]:
     """The report of a plan that became a house, and its page."""
     document, part = result.document, result.house.part
-    storey_notes = [f"{s.name}: {note}" for s in document.storeys for note in s.notes]
+    # Of a house of one storey doubts are without its name: they would be said twice.
+    storey_notes = [
+        f"{s.name}: {note}" for s in document.storeys for note in s.notes if note not in doubts
+    ]
     tour_notes = () if result.tour is None else result.tour.notes
     said = dict.fromkeys(
         [*doubts, *notes, *document.notes, *storey_notes, *part.notes, *tour_notes]
