@@ -56,10 +56,7 @@ pub fn indexed(array: &Array, indices: &[Value]) -> Result<Value, String> {
         }
         [rows, columns] => {
             let (rows, columns) = (rows.numbers(), columns.numbers());
-            if rows.len().saturating_mul(columns.len()) > MAX_ELEMENTS {
-                let count = rows.len().saturating_mul(columns.len());
-                return Err(format!("an array of {count} elements"));
-            }
+            check_crossed(rows, columns)?;
             let row = |&row: &f64| {
                 let at = move |&column: &f64| array.at(row, column, array.columns);
                 columns.iter().map(at)
@@ -107,6 +104,7 @@ pub fn set_elements(args: &[Value]) -> Result<Value, String> {
         [rows, columns] => {
             let floor = |index: &Index| index.numbers().iter().map(|at| at.floor()).collect();
             let (rows, columns): (Vec<f64>, Vec<f64>) = (floor(rows), floor(columns));
+            check_crossed(&rows, &columns)?;
             Places::of(&rows, &columns, greatest(&columns) + 1.0)
         }
         _ => return Err("an index has one number or two".into()),
@@ -146,6 +144,15 @@ impl Places {
             columns: wide,
         }
     }
+}
+
+/// Every row with every column: so many places must fit in an array.
+fn check_crossed(rows: &[f64], columns: &[f64]) -> Result<(), String> {
+    let count = rows.len().saturating_mul(columns.len());
+    if count > MAX_ELEMENTS {
+        return Err(format!("an array of {count} elements"));
+    }
+    Ok(())
 }
 
 fn greatest(numbers: &[f64]) -> f64 {

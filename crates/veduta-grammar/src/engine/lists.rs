@@ -57,8 +57,11 @@ fn is_like(element: &str, wanted: &str) -> bool {
 /// What is looked for: one text, or a list of them.
 fn wanted(args: &[Value]) -> Result<Vec<String>, String> {
     let text = args[1].written()?;
-    let all = text.strip_suffix(';').unwrap_or(&text).split(';');
-    Ok(all.map(str::to_string).collect())
+    let text = text.strip_suffix(';').unwrap_or(&text);
+    if text.is_empty() {
+        return Ok(Vec::new());
+    }
+    Ok(text.split(';').map(str::to_string).collect())
 }
 
 /// `listAdd(list, element)`

@@ -124,6 +124,8 @@ impl Lowering<'_> {
                     Arg::Word(word)
                 }
                 (_, None) => {
+                    // Which attribute a computed name means is known as late as it is set.
+                    self.tells_pivot |= id.attribute_argument() == Some(index);
                     let (sizing, expr) = self.sized(arg);
                     Arg::Value(sizing, expr)
                 }

@@ -4,19 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 from veduta.grammar.deriving import deriver
 from veduta.grammar.one_lot import plain_lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.rules import check_rules, read_rules
-
-
-class Page(NamedTuple):
-    """Definitions, and pairs of an expression and its value as text."""
-
-    definitions: str
-    examples: tuple[tuple[str, str], ...]
 
 
 def values_of(definitions: str, expressions: Sequence[str], folder: Path) -> list[str | None]:
