@@ -198,7 +198,10 @@ def test_a_film(tmp_path: Path) -> None:
     call = ("photos", "--video", tmp_path / "arc.avi", "--video-interval-s", "0.5",
         "-o", tmp_path / "out", *QUICK)  # fmt: skip
     done = veduta(*call)
-    assert (done.returncode, done.stderr) == (0, "")
+    # A machine that takes long is told how far it is; nothing else is said there.
+    assert done.returncode == 0, done.stderr
+    assert "error" not in done.stderr
+    assert "warning" not in done.stderr
     assert "7 of 7 photos calibrated" in done.stdout
     names = [f"arc-{number:06d}.jpg" for number in range(1, 21, 3)]
     assert sorted(path.name for path in (tmp_path / "out" / "frames").iterdir()) == names
