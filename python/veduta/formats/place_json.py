@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from veduta.place.manifest import LATER, Place
 from veduta.run.atomic import write_bytes
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 from veduta.run.inputs import require_file
 
 # A manifest larger than this is refused before it is read (bytes).
@@ -44,10 +45,8 @@ def read_place(path: Path) -> Place:
     try:
         return Place.model_validate_json(text)
     except ValidationError as error:
-        first = error.errors()[0]
-        field = ".".join(str(step) for step in first["loc"]) or "the file"
         raise InputError(
-            path, f"{field}: {first['msg']}", "Let Veduta write it again, or mend the field."
+            path, first_fault(error), "Let Veduta write it again, or mend the field."
         ) from error
 
 

@@ -26,6 +26,7 @@ from pydantic import (
 import veduta
 from veduta.run.atomic import write_bytes
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 from veduta.run.report import Failure
 
 T = TypeVar("T")
@@ -166,11 +167,9 @@ def load_record(out: Path) -> RunRecord | None:
     except NotADirectoryError as error:
         raise InputError(out, "is not a folder", "Choose another one with -o.") from error
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"]) or "the file"
         raise InputError(
             path,
-            f"is not a run record of this version ({where}: {first['msg']})",
+            f"is not a run record of this version ({first_fault(error)})",
             "Choose another folder with -o.",
         ) from error
 

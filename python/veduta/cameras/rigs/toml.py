@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from veduta.cameras.rigs.calibration import RigCalibration
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 
 TOML = "walk.toml"
 _REMEDY = "Write focal_px, centre_px and baseline_m of a rectified rig."
@@ -40,9 +41,7 @@ def read_toml(path: Path, text: str) -> RigCalibration:
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InputError(path, f"is no TOML ({error})", _REMEDY) from error
     except ValidationError as error:
-        first = error.errors()[0]
-        field = ".".join(str(step) for step in first["loc"]) or "the file"
-        raise InputError(path, f"{field}: {first['msg']}", _REMEDY) from error
+        raise InputError(path, first_fault(error), _REMEDY) from error
     fx, fy = said.focal_px if isinstance(said.focal_px, tuple) else (said.focal_px, said.focal_px)
     if not (fx > 0.0 and fy > 0.0):
         raise InputError(path, "focal_px is not above 0", _REMEDY)

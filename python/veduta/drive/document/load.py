@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from veduta.drive.document.model import DriveDocument
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 from veduta.run.inputs import require_file
 
 DOCUMENT = "drive.json"
@@ -22,9 +23,7 @@ def load_document(path: Path) -> DriveDocument:
     try:
         document = DriveDocument.model_validate_json(path.read_bytes())
     except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(word) for word in first["loc"]) or "the file"
-        raise InputError(path, f"{place}: {first['msg']}", "Mend it, or drive anew.") from error
+        raise InputError(path, first_fault(error), "Mend it, or drive anew.") from error
     names = [segment.id for segment in document.segments]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:

@@ -25,6 +25,7 @@ from veduta.drive.read.surface_model import read_heights
 from veduta.drive.read.surface_picture import draw_surface
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 from veduta.run.names import real_path
 
 LOG = "drive.toml"
@@ -177,9 +178,7 @@ def read_toml(path: Path) -> DriveLog:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(path, f"is no TOML: {error}", "Mend it.") from error
     except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(word) for word in first["loc"]) or "the file"
-        raise InputError(path, f"{place}: {first['msg']}", "docs/drive.md describes it.") from error
+        raise InputError(path, first_fault(error), "docs/drive.md describes it.") from error
 
 
 def _level_sweeps(

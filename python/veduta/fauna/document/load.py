@@ -11,6 +11,7 @@ from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.document.schema import Animal
 from veduta.run.atomic import write_bytes
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 from veduta.run.inputs import require_file
 
 DOCUMENT = "animal.json"
@@ -29,9 +30,7 @@ def load_animal(path: Path) -> Animal | LimbedAnimal:
     except OSError as error:
         raise InputError(path, f"cannot be read ({error.strerror})", remedy) from error
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(step) for step in first["loc"]) or "the file"
-        raise InputError(path, f"is no animal document: {where}: {first['msg']}", remedy) from error
+        raise InputError(path, f"is no animal document: {first_fault(error)}", remedy) from error
 
 
 def save_animal(animal: Animal | LimbedAnimal, path: Path) -> None:

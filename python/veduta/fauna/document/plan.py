@@ -9,6 +9,7 @@ from typing import Annotated, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 from veduta.run.inputs import require_file
 
 PLANS = Path(__file__).parent / "plans"
@@ -96,6 +97,6 @@ def load_plan(name: str, own: Path | None = None) -> BodyPlan:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(path, f"is no TOML: {error}", _REMEDY) from error
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(step) for step in first["loc"]) or "the plan"
-        raise InputError(path, f"is no body plan: {where}: {first['msg']}", _REMEDY) from error
+        raise InputError(
+            path, f"is no body plan: {first_fault(error, 'the plan')}", _REMEDY
+        ) from error

@@ -20,6 +20,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from veduta.formats.colmap_model import pose
 from veduta.photos.intake.source import Mount, Source
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 
 RIG_FILE = "rig.json"
 LARGEST_FILE = 1 << 20
@@ -60,9 +61,7 @@ def read_rig_file(path: Path, sha256: str, cameras: Sequence[str]) -> RigFile:
     try:
         rigs = TypeAdapter(tuple[_RigConfig, ...]).validate_json(path.read_bytes())
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"]) or "the file"
-        fault = f"is no rig: {where}: {first['msg']}"
+        fault = f"is no rig: {first_fault(error)}"
         raise InputError(path, fault, "Write it as COLMAP's rig_config.json.") from error
     if len(rigs) != 1:
         fault = f"describes {len(rigs)} rigs, and one can be used"

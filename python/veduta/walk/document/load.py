@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from veduta.run.atomic import write_bytes
 from veduta.run.errors import InputError
+from veduta.run.faults import first_fault
 from veduta.run.inputs import require_file
 from veduta.walk.document.schema import WalkDocument
 
@@ -27,6 +28,4 @@ def read_document(path: Path) -> WalkDocument:
     try:
         return WalkDocument.model_validate_json(path.read_bytes())
     except ValidationError as error:
-        first = error.errors()[0]
-        field = ".".join(str(step) for step in first["loc"]) or "the file"
-        raise InputError(path, f"{field}: {first['msg']}", "Mend the field.") from error
+        raise InputError(path, first_fault(error), "Mend the field.") from error
