@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from veduta.dense.document import DepthMap, Views
 from veduta.dense.read.sparse import SparsePoints
@@ -70,7 +69,7 @@ def _model(
         camera = views.cameras[view]
         shown = np.unique(sparse.visible[view])
         shown = shown[kept[shown]]
-        places = _places(camera.projection(), sparse.points_m[shown])
+        places, _ = camera.project(sparse.points_m[shown])
         most = (camera.width_px - 1, camera.height_px - 1)
         at = np.clip(np.floor(places), 0, most).astype(np.intp)
         colours[shown] = views.pixels(view)[at[:, 1], at[:, 0]]
@@ -80,9 +79,3 @@ def _model(
         )
     numbers = np.flatnonzero(kept)
     return images, ColmapPoints(numbers + 1, sparse.points_m[numbers], colours[numbers])
-
-
-def _places(projection: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 2) px of (n, 3) points."""
-    there = points @ projection[:, :3].T + projection[:, 3]
-    return np.asarray(there[:, :2] / there[:, 2:])

@@ -100,10 +100,7 @@ def _storeys(
     """
     parameters = RowParameters()
     windows = [e for e in elements if e.kind == "window"]
-    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in windows]).reshape(-1, 4)
-    every = window_rows(boxes, parameters)
-    rows = without_cellar(every, parameters)
-    has_cellar = len(rows) < len(every)
+    rows, has_cellar = _rows_of(windows, parameters)
     plain = _plain_floors(evidence, skyline, options)
     top, bottom = float(skyline.level), evidence.height
     eaves = float(plain.eaves) if plain is not None else None
@@ -123,6 +120,16 @@ def _storeys(
         return Storeys(with_set_back(floors, rows, balconies, evidence.width), [])
     reason = _UNEVEN if len(rows) > 1 else _ONE_ROW
     return Storeys(_plane(rows, skyline, elements), [_PLANE, reason])
+
+
+def _rows_of(
+    windows: Sequence[SeenElement], parameters: RowParameters
+) -> tuple[list[WindowRow], bool]:
+    """The rows of windows above a cellar, and whether there is a row of a cellar's."""
+    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in windows]).reshape(-1, 4)
+    every = window_rows(boxes, parameters)
+    rows = without_cellar(every, parameters)
+    return rows, len(rows) < len(every)
 
 
 def _is_storey_above(
@@ -159,10 +166,7 @@ def _under_gable(
     below = [e for e in windows if 0.5 * (e.y0 + e.y1) > eaves]
     if any(_is_over_slopes(e, gable, len(skyline.rows)) for e in windows if e not in below):
         return None
-    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in below]).reshape(-1, 4)
-    every = window_rows(boxes, parameters)
-    rows = without_cellar(every, parameters)
-    has_cellar = len(rows) < len(every)
+    rows, has_cellar = _rows_of(below, parameters)
     bottom = evidence.height
     floors = floors_of_rows(rows, eaves, eaves, bottom, parameters, has_cellar=has_cellar)
     kind: RoofKind = "gable" if is_wall(gable, wall, skyline, GableParameters().wall) else "hip"

@@ -124,7 +124,7 @@ def _along(points: Points, door_px: float, thick_px: float) -> Iterator[tuple[Sw
         for ahead in range(1, LEAF_CORNERS + 1):
             tip = corners[(place + ahead) % len(corners)]
             leaf = _between(points, first, tip)
-            size = float(np.hypot(*(leaf[-1] - leaf[0])))
+            size, _ = _way(leaf)
             if not low - thick_px <= size <= high or not _straight(leaf):
                 continue
             best = max(
@@ -148,9 +148,10 @@ def _trace(points: Points, tip: int, leaf: Points, radius: float) -> tuple[float
 
     The hinge lies on the leaf's line.
     """
-    way = (leaf[-1] - leaf[0]) / max(float(np.hypot(*(leaf[-1] - leaf[0]))), 1e-9)
+    _, way = _way(leaf)
     hinge = leaf[-1] - radius * way
-    on = np.roll(points, -tip, axis=0)[: int(2 * radius)]
+    ahead = np.arange(tip, tip + min(int(2 * radius), len(points)))
+    on = points.take(ahead, axis=0, mode="wrap")
     apart = on - hinge
     off = np.abs(np.hypot(*apart.T) - radius) > max(STRAY_PX, STRAY * radius)
     count = int(off.argmax()) if off.any() else len(on)
@@ -177,11 +178,17 @@ def _between(points: Points, first: int, last: int) -> Points:
     return np.concatenate([points[first:], points[: last + 1]])
 
 
+def _way(leaf: Points) -> tuple[float, Points]:
+    """How long a leaf (n, 2) is from its hinge to its tip, and the unit vector (2,) there."""
+    along = leaf[-1] - leaf[0]
+    size = float(np.hypot(*along))
+    return size, along / max(size, 1e-9)
+
+
 def _straight(leaf: Points) -> bool:
     """Whether a part of an outline is a straight line, but for what a slab's tip adds."""
-    way = (leaf[-1] - leaf[0]) / max(float(np.hypot(*(leaf[-1] - leaf[0]))), 1e-9)
+    size, way = _way(leaf)
     across = np.abs((leaf - leaf[0]) @ np.array([-way[1], way[0]]))
-    size = float(np.hypot(*(leaf[-1] - leaf[0])))
     return bool(across.max() <= max(STRAY_PX, STRAY * size) and len(leaf) <= 1.5 * size + 4)
 
 
