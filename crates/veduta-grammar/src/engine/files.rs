@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::functions::text;
 use super::material_files;
-use super::value::{Array, Value, MAX_ELEMENTS};
+use super::value::{Array, Kind, Value, MAX_ELEMENTS};
 
 /// What the files of a project are, by the names that rule files have for them.
 #[derive(Debug, Clone, Default)]
@@ -195,6 +195,6 @@ fn table(text: &str, value: impl Fn(&str) -> Value) -> Result<Value, String> {
         let row = cells(line);
         values.extend((0..columns).map(|at| value(row.get(at).map_or("", String::as_str))));
     }
-    let kind = Array::new(1, vec![value("")]).kind;
-    Ok(Value::Array(Arc::new(Array::new(columns, values).or(kind))))
+    let array = Array::new(columns, values).or(Kind::of(&value("")));
+    Ok(Value::Array(Arc::new(array)))
 }

@@ -173,7 +173,7 @@ fn enlarged(given: &Array, value: &Value, places: &Places) -> Result<Array, Stri
     let kind = match value {
         _ if !given.values.is_empty() => given.kind,
         Value::Array(values) => values.kind,
-        one => Array::new(1, vec![one.clone()]).kind,
+        one => Kind::of(one),
     };
     let none = Array::default().or(kind).none();
     let mut values = vec![none; rows * columns];

@@ -26,13 +26,16 @@ pub const TABLE: &[(&str, Function, usize, usize)] = {
 };
 
 fn elements(args: &[Value], index: usize) -> Result<Vec<&str>, String> {
-    let list = text(args, index)?;
+    Ok(split(text(args, index)?))
+}
+
+fn split(list: &str) -> Vec<&str> {
     let list = list.strip_suffix(';').unwrap_or(list);
-    Ok(if list.is_empty() {
+    if list.is_empty() {
         Vec::new()
     } else {
         list.split(';').collect()
-    })
+    }
 }
 
 fn list<'a>(elements: impl IntoIterator<Item = &'a str>) -> Value {
@@ -57,11 +60,7 @@ fn is_like(element: &str, wanted: &str) -> bool {
 /// What is looked for: one text, or a list of them.
 fn wanted(args: &[Value]) -> Result<Vec<String>, String> {
     let text = args[1].written()?;
-    let text = text.strip_suffix(';').unwrap_or(&text);
-    if text.is_empty() {
-        return Ok(Vec::new());
-    }
-    Ok(text.split(';').map(str::to_string).collect())
+    Ok(split(&text).into_iter().map(str::to_string).collect())
 }
 
 /// `listAdd(list, element)`

@@ -24,6 +24,17 @@ pub enum Kind {
     Texts,
 }
 
+impl Kind {
+    /// What an array holds that holds this.
+    pub fn of(value: &Value) -> Self {
+        match value {
+            Value::Text(_) => Self::Texts,
+            Value::Bool(_) => Self::Truths,
+            _ => Self::Numbers,
+        }
+    }
+}
+
 /// A table of values, row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Array {
@@ -35,11 +46,7 @@ pub struct Array {
 impl Array {
     /// An array that holds what its first element is; numbers, where it has none.
     pub fn new(columns: usize, values: Vec<Value>) -> Self {
-        let kind = match values.first() {
-            Some(Value::Text(_)) => Kind::Texts,
-            Some(Value::Bool(_)) => Kind::Truths,
-            _ => Kind::Numbers,
-        };
+        let kind = values.first().map_or(Kind::default(), Kind::of);
         Self {
             columns,
             values,
