@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from veduta.formats.known_values import known
 from veduta.formats.rings import Face, faces_of
 from veduta.formats.shapes import Look, Shape, shapes
 from veduta.place.part import NO_PARENT
@@ -98,7 +99,7 @@ def _building(shape: Shape) -> CityThing:
         shape.placed.standing.name or shape.placed.id,
         _surfaces(shape, of_shell.get(0, {}), in_building=True),
         shape.looks,
-        dict(shape.content.attributes),
+        known(shape.content.attributes),
         things,
         is_building=bool(_OF_BUILDINGS & set(np.unique(features.class_code).tolist())),
     )

@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from veduta.formats import cityjson_frame as frame
+from veduta.formats.known_values import known
 from veduta.place.flatten import flattened
 from veduta.place.material import Texture
 from veduta.place.part import NO_PARENT, Part
@@ -51,7 +52,7 @@ def cityjson(part: Part, pictures: Mapping[Texture, str] = NO_PICTURES) -> dict[
     rings = _Rings(part.polygon_offsets.tolist(), part.ring_offsets.tolist(), vertex_of.tolist())
     building: dict[str, Any] = {
         "type": "Building",
-        "attributes": dict(part.attributes),
+        "attributes": known(part.attributes),
         "geometry": [_solid(part, 0, rings, look, on_building=True)],
     }
     objects: dict[str, Any] = {part.id: building}

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats import cityjson_frame as frame
+from veduta.formats.known_values import known
 from veduta.place.part import Part
 from veduta.place.semantics import CITYJSON_SURFACE, SemanticClass
 from veduta.run.atomic import write_bytes
@@ -67,7 +68,7 @@ def textured(
         geometry = _geometry(one, own, number_of, texture_vertices)
         objects[one.part.id] = {
             "type": "Building",
-            "attributes": dict(one.part.attributes),
+            "attributes": known(one.part.attributes),
             "geometry": [geometry],
         }
     whole = frame.document(

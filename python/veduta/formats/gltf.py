@@ -28,6 +28,7 @@ from veduta.formats.gltf_materials import CLAMP, REPEAT, GltfMaterials
 from veduta.formats.gltf_metadata import describe
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
+from veduta.formats.known_values import known
 from veduta.place.camera_path import CameraPath
 from veduta.place.material import Material
 from veduta.place.mesh import Mesh
@@ -73,7 +74,7 @@ def glb_bytes(
                 "extras": {
                     "veduta": {
                         "features": feature_columns(part),
-                        "attributes": dict(part.attributes),
+                        "attributes": known(part.attributes),
                         "notes": list(part.notes),
                     }
                 },

@@ -19,6 +19,7 @@ from veduta.formats.gltf_bin import GltfBin, glb_container, y_up
 from veduta.formats.gltf_materials import CLAMP, REPEAT, GltfMaterials
 from veduta.formats.gltf_metadata import describe
 from veduta.formats.gltf_rig import rig_for_others
+from veduta.formats.known_values import known
 from veduta.imaging.srgb import linear_of_srgb
 from veduta.place.mesh import Mesh
 from veduta.place.skin import Clip, Skin
@@ -50,7 +51,7 @@ def mesh_glb_bytes(mesh: Mesh, *, rigged: bool = False, alone: bool = True) -> b
     told = {
         "mesh": True,
         "features": feature_columns(mesh),
-        "attributes": dict(mesh.attributes),
+        "attributes": known(mesh.attributes),
         "notes": list(mesh.notes),
         **mesh.extras,
     }

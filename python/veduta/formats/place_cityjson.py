@@ -8,7 +8,6 @@ left corner.
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -41,7 +40,7 @@ def write_place_cityjson(place: Place, path: Path) -> None:
             made["parents"] = [thing.id]
             building.setdefault("children", []).append(one.id)
             objects[one.id] = made
-    write_bytes(path, json.dumps(_whole(place, document, objects), separators=(",", ":")).encode())
+    write_bytes(path, frame.encoded(_whole(place, document, objects)))
 
 
 def _whole(place: Place, document: _Document, objects: dict[str, Any]) -> dict[str, Any]:

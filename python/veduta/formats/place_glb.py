@@ -27,6 +27,7 @@ from veduta.formats.gltf_metadata import (
     property_table,
     schema,
 )
+from veduta.formats.known_values import known
 from veduta.formats.mesh_glb import mesh_glb_bytes
 from veduta.formats.shapes import contents
 from veduta.place.camera_path import CameraPath
@@ -82,7 +83,7 @@ def _add_part(
         "extras": {
             "veduta": {
                 "part": placed.id,
-                "attributes": dict(content.attributes),
+                "attributes": known(content.attributes),
                 "notes": list(content.notes),
                 "arrangement": standing.arrangement,
                 "table": len(tables),

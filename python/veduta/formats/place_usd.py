@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from veduta.formats.known_values import known
 from veduta.formats.pictures import Pictures
 from veduta.formats.shapes import Look, Shape, shapes
 from veduta.formats.usd_skel import add_motion, moves
@@ -109,7 +110,7 @@ def _mesh(stage: Usd.Stage, shape: Shape, names: _PrimNames) -> Any:
     kind = UsdSkel.Root if moves(shape.content) else UsdGeom.Xform
     above = kind.Define(stage, f"{_ROOT}/{names.unique(shape.placed.id)}")
     above.GetPrim().SetDisplayName(shape.placed.standing.name or shape.placed.id)
-    for name, value in shape.content.attributes.items():
+    for name, value in known(shape.content.attributes).items():
         above.GetPrim().SetCustomDataByKey(f"veduta:{re.sub('[^A-Za-z0-9_]', '_', name)}", value)
     mesh = UsdGeom.Mesh.Define(stage, above.GetPath().AppendChild("Mesh"))
     own = shape.triangles

@@ -8,7 +8,6 @@ in the place's own CRS. Heights are attributes.
 from __future__ import annotations
 
 import json
-import math
 import warnings
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ import numpy as np
 import shapely
 from shapely.geometry import MultiPolygon, mapping
 
+from veduta.formats.known_values import plain
 from veduta.formats.outlines import Outline, outlines
 from veduta.place.place import Place
 from veduta.run.atomic import atomic_write, write_bytes
@@ -102,18 +102,9 @@ def _placed(place: Place, path: Path) -> list[Outline]:
         moved = shapely.affinity.translate(one.polygon, east, north)
         ground = one.attributes["ground_m"]
         above = round(ground + up, 2) if isinstance(ground, (int, float)) else None
-        told = {name: _plain(value) for name, value in one.attributes.items()}
+        told = {name: plain(value) for name, value in one.attributes.items()}
         made.append(Outline(one.id, moved, told | {"ground_m": above}))
     return made
-
-
-def _plain(value: Any) -> Any:
-    """A value as a table or JSON can hold it: what is no number is not known."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value.encode("utf-8", "replace").decode() if isinstance(value, str) else value
 
 
 def _in_degrees(polygon: MultiPolygon, place: Place, path: Path) -> MultiPolygon:

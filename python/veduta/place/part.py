@@ -107,6 +107,10 @@ class Part:
     movers: tuple[Mover, ...] = ()
     lamps: tuple[Lamp, ...] = ()
 
+    def __post_init__(self) -> None:
+        if not np.isfinite(self.positions_m).all():
+            raise ValueError(f"part {self.id!r}: a position is no number")
+
     @cached_property
     def triangles(self) -> Triangles:
         """Triangles of all polygons; raises `_core.PolygonFault` on a polygon that is none."""

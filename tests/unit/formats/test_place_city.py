@@ -205,6 +205,15 @@ def test_values_that_json_cannot_hold(tmp_path: Path) -> None:
     assert document["title"] == "b?"
 
 
+@pytest.mark.parametrize("suffix", [".city.json", ".gml", ".glb", ".usda"])
+def test_values_that_are_no_numbers_are_left_out(suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"x{suffix}"
+    _sheet({"no_height": float("nan"), "no_end": -np.inf, "count": np.int64(3)}).write(path)
+    text = path.read_bytes()
+    assert b"count" in text
+    assert all(word not in text for word in (b"no_height", b"no_end", b"NaN", b"Infinity"))
+
+
 def test_a_place_outside_of_its_crs_has_no_degrees(tmp_path: Path) -> None:
     place = _sheet({}, CRS)
     place.origin_m = (1e12, 1e12, 0.0)

@@ -48,3 +48,12 @@ def test_a_texture_and_its_mask_have_one_size() -> None:
     pixels = np.zeros((4, 6, 3), dtype=np.uint8)
     with pytest.raises(ValueError, match=r"\(4, 6\) bool"):
         Texture(pixels=pixels, invented=np.zeros((6, 4), dtype=np.bool_))
+
+
+def test_a_position_that_is_no_number_is_refused() -> None:
+    builder = PartBuilder("p")
+    row = builder.feature(SemanticClass.WALL, Provenance.MEASURED, "wall")
+    stone = builder.material(Material("stone"))
+    builder.polygon([[(0, 0, 0), (1, 0, 0), (0, np.inf, 1)]], row, stone)
+    with pytest.raises(ValueError, match="part 'p': a position is no number"):
+        builder.build()
