@@ -17,6 +17,8 @@ import {
 /** After each piece the page draws before the next one is read. */
 const PAUSE_MS = 60;
 
+const NOTHING = new BufferGeometry();
+
 /** What textures and geometries have in common. */
 type Disposed = EventDispatcher<{ dispose: object }>;
 
@@ -28,7 +30,7 @@ export class HandingOver {
   readonly #target = new WebGLRenderTarget(1, 1, { depthBuffer: false });
   /** A triangle of it is drawn nowhere: three.js sends a geometry when it is drawn first, and not before. */
   readonly #mesh = new Mesh(
-    new BufferGeometry(),
+    NOTHING,
     new ShaderMaterial({
       vertexShader: "void main() { gl_Position = vec4(position.xy * 0.0 + 2.0, 2.0, 1.0); }",
       fragmentShader: "void main() { gl_FragColor = vec4(0.0); }",
@@ -68,6 +70,8 @@ export class HandingOver {
     renderer.setRenderTarget(this.#target);
     renderer.render(this.#scene, this.#camera);
     geometry.setDrawRange(start, count);
+    // What one has walked past is not to be held here.
+    this.#mesh.geometry = NOTHING;
   }
 
   dispose(): void {
@@ -77,19 +81,26 @@ export class HandingOver {
   }
 }
 
+/** It was let go of before it was read. */
+export class Unwanted extends Error {}
+
 /** Work that is done one after the other, with pauses in which the page draws. */
 export class OneByOne {
   #last: Promise<void> = Promise.resolve();
 
-  async do<T>(work: () => Promise<T>): Promise<T> {
+  /** What nobody wants any more when its turn comes is not done, and has no pause after it. */
+  async do<T>(work: () => Promise<T>, isWanted: () => boolean): Promise<T> {
     const before = this.#last;
     let release: () => void = () => undefined;
     this.#last = new Promise((resolve) => (release = resolve));
     await before;
+    let pause_ms = 0;
     try {
+      if (!isWanted()) throw new Unwanted();
+      pause_ms = PAUSE_MS;
       return await work();
     } finally {
-      setTimeout(release, PAUSE_MS);
+      setTimeout(release, pause_ms);
     }
   }
 }

@@ -149,7 +149,7 @@ export class MorphFiles {
       this.#onArrival();
     };
     own.wishes = ([["forth", forth], ["back", back]] as const).map(([end, file]) =>
-      this.#wishes.bring(file, async () => await this.#model(file), (model) => take(end, model)),
+      this.#wishes.bring(file, async () => await this.#model(file, () => this.#ways.get(transition) === own), (model) => take(end, model)),
     );
     await Promise.all(own.wishes.map(async ({ tried }) => await tried));
   }
@@ -159,7 +159,7 @@ export class MorphFiles {
     if (file === undefined) return;
     const own: Near<Texture> = { came: null, wishes: [] };
     this.#pictures.set(station, own);
-    const wish = this.#wishes.bring(file, async () => await this.#bitmap(file), (bitmap) => {
+    const wish = this.#wishes.bring(file, async () => await this.#bitmap(file, () => this.#pictures.get(station) === own), (bitmap) => {
       const texture = bitmapTexture(bitmap, NoColorSpace);
       const now = this.#pictures.get(station);
       if (now?.came === null) {
@@ -172,22 +172,22 @@ export class MorphFiles {
     await wish.tried;
   }
 
-  async #bitmap(file: string): Promise<ImageBitmap> {
+  async #bitmap(file: string, isWanted: () => boolean): Promise<ImageBitmap> {
     const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
     return await this.#reading.do(async () => {
       const bitmap = await createImageBitmap(new Blob([bytes])).catch(() => {
         throw new Fault(file, "the picture cannot be read", REMEDY);
       });
       return await within(bitmap, this.#most_px);
-    });
+    }, isWanted);
   }
 
-  async #model(file: string): Promise<EndModel> {
+  async #model(file: string, isWanted: () => boolean): Promise<EndModel> {
     const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
     const loader = new GLTFLoader();
     // The picture is for other programs: here one is shared by all models of its station.
     loader.register(() => ({ name: "EXT_texture_webp", loadTexture: async () => await Promise.resolve(new Texture()) }));
-    const { scene } = await this.#reading.do(async () => await loader.parseAsync(bytes, "")).catch((error: unknown) => {
+    const { scene } = await this.#reading.do(async () => await loader.parseAsync(bytes, ""), isWanted).catch((error: unknown) => {
       throw new Fault(file, `the model is broken (${error instanceof Error ? error.message : String(error)})`, REMEDY);
     });
     const geometries = new Map<string, BufferGeometry>();

@@ -33,6 +33,22 @@ describe("room where a walk begins", () => {
     expect(x).toBeLessThan(1.2 - body.radius_m + 1e-9);
   });
 
+  it("does not step off a terrace", () => {
+    const terrace = (end: number): Obstacles => ({
+      pushOut: ([x, y, z], sized) => {
+        if (x < end && z < 3) return [0, 0, 3 - z];
+        return walls(0).pushOut([x, y, z], sized);
+      },
+    });
+    expect(withElbowRoom([0.5, 2, 3], terrace(1), body)).toEqual([0.5, 2, 3]);
+    expect(withElbowRoom([0.5, 2, 3], terrace(2), body)).toEqual([1.5, 2, 3]);
+  });
+
+  it("moves on a hill, whose ground is no obstacle", () => {
+    const hill: Obstacles = { ...walls(0), groundAt: () => 3 };
+    expect(withElbowRoom([0.5, 2, 3], hill, body)).toEqual([1.5, 2, 3]);
+  });
+
   it("stays where nothing helps", () => {
     const stuck: Obstacles = { pushOut: () => [0.1, 0, 0] };
     expect(withElbowRoom(from, stuck, body)).toEqual(from);

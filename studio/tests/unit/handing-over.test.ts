@@ -1,7 +1,8 @@
 import { BufferAttribute, BufferGeometry, Texture } from "three";
 import { describe, expect, it } from "vitest";
-import { HandingOver, OneByOne } from "../../src/three/handing-over.ts";
+import { HandingOver, OneByOne, Unwanted } from "../../src/three/handing-over.ts";
 
+const wanted = (): boolean => true;
 type Renderer = Parameters<HandingOver["giveOne"]>[0];
 
 const triangles = (): BufferGeometry => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(27), 3));
@@ -54,13 +55,27 @@ describe("work one by one", () => {
       told.push("first begins");
       await new Promise<void>((resolve) => (finish = resolve));
       throw new Error("broken");
-    });
-    const second = line.do(async () => await Promise.resolve(told.push("second begins")));
+    }, wanted);
+    const second = line.do(async () => await Promise.resolve(told.push("second begins")), wanted);
     await new Promise((resolve) => setTimeout(resolve, 5));
     expect(told).toEqual(["first begins"]);
     finish();
     await expect(first).rejects.toThrow("broken");
     await second;
     expect(told).toEqual(["first begins", "second begins"]);
+  });
+  it("leaves out what was let go of while it waited", async () => {
+    const line = new OneByOne();
+    let isWanted = true;
+    let finish: () => void = () => undefined;
+    const first = line.do(async () => await new Promise<void>((resolve) => (finish = resolve)), wanted);
+    const second = line.do(async () => await Promise.reject(new Error("was done")), () => isWanted);
+    const third = line.do(async () => await Promise.resolve("done"), wanted);
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    isWanted = false;
+    finish();
+    await first;
+    await expect(second).rejects.toBeInstanceOf(Unwanted);
+    expect(await third).toBe("done");
   });
 });
