@@ -1,9 +1,9 @@
-"""What a graphics card makes of carve's hull and of linking, beside the processor of its machine.
+"""What a graphics card makes of carve's hull and colours, and of linking, beside the processor.
 
 Two steps, for the machine with the card has only Python, numpy and the extension. gpu.py --pack
-given.npz [--data FOLDER] takes the silhouettes of the Oxford dinosaur and Merton College I (after
-`veduta photos`); there, gpu.py --measure given.npz [--core EXTENSION] writes found.json beside it;
-gpu.py --record found.json keeps `benchmarks/results/gpu.md`.
+given.npz [--data FOLDER] takes the silhouettes of the Oxford dinosaur, the photos of Middlebury's
+and Merton College I (after `veduta photos`); there, gpu.py --measure given.npz [--core EXTENSION]
+writes found.json beside it; gpu.py --record found.json keeps `benchmarks/results/gpu.md`.
 """
 
 from __future__ import annotations
@@ -24,6 +24,14 @@ import numpy as np
 TIMES = 9
 RULE = {"rows": 25, "gamma_colour": 40.0, "gamma_px": 15.0, "most": 40, "path": (600, 12_000)}
 LINKS = {"deviation_px": 0.6, "most_deviations": 3.0, "most_across_px": 1.5}
+SWEEPS = {
+    "spread": 25.0,
+    "least_views": 3,
+    "most_views": 6,
+    "least_cosine": 0.35,
+    "rim_voxels": 1.5,
+    "sweeps": 80,
+}
 AIMS = {"carve 256": 0.1, "links of Merton College I": 0.1}
 
 
@@ -42,7 +50,12 @@ def measure(given: Path, core: Any, software: bool) -> dict[str, Any]:
     """Rows of seconds on the card and on the processor, and whether they agree."""
     data = np.load(given)
     card = core.GraphicsCard(software=software)
-    rows = [*_carved(data, core, card), *_pairs(data, core, card), _links(data, core, card)]
+    rows = [
+        *_carved(data, core, card),
+        _swept(data, core, card),
+        *_pairs(data, core, card),
+        _links(data, core, card),
+    ]
     machine = f"{card.name()}; {platform.processor() or platform.machine()}, {os.cpu_count()} cores"
     return {"machine": machine, "rows": rows}
 
@@ -59,6 +72,23 @@ def _carved(data: Any, core: Any, card: Any) -> list[dict[str, Any]]:
         same = abs(a.inside() - b.inside())
         rows.append(_row(f"carve {2**levels}", on_card, on_cores, f"{same} voxels differ"))
     return rows
+
+
+def _swept(data: Any, core: Any, card: Any) -> dict[str, Any]:
+    count = len(data["scams"])
+    photos = [np.ascontiguousarray(data[f"sp{number}"]) for number in range(count)]
+    distances = [np.ascontiguousarray(data[f"sd{number}"]) for number in range(count)]
+    solid = np.ascontiguousarray(data["ssolid"])
+    call = (
+        data["scams"], photos, distances, data["scorners"], solid, data["slow"].tolist(),
+        float(data["sside"]), core.SweepRule(**SWEEPS),
+    )  # fmt: skip
+    (a, on_card), (b, on_cores) = (
+        timed(partial(engine.sweep_colours, *call)) for engine in (card, core)
+    )
+    gone, differ = int((solid & ~b[0]).sum()), int((a[0] != b[0]).sum())
+    told = f"{differ} of {gone} carved voxels differ"
+    return _row("colours of Middlebury's dino at 128", on_card, on_cores, told)
 
 
 def _pairs(data: Any, core: Any, card: Any) -> list[dict[str, Any]]:
@@ -119,9 +149,9 @@ def _row(what: str, on_card: float, on_cores: float, agreement: str) -> dict[str
 
 def pack(out: Path, data: Path) -> None:
     """What the machine with the card needs."""
-    from gpu_inputs import carve_inputs, link_inputs
+    from gpu_inputs import carve_inputs, link_inputs, sweep_arrays
 
-    arrays: dict[str, Any] = {**carve_inputs(data), **link_inputs(data)}
+    arrays: dict[str, Any] = {**carve_inputs(data), **sweep_arrays(data), **link_inputs(data)}
     np.savez_compressed(out, **arrays)
 
 

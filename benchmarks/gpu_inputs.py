@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from veduta.cameras import read_cameras
 from veduta.carve.build.bounds import find_bounds
-from veduta.carve.build.hull import outline_distances, root_of
+from veduta.carve.build.consistency import sweep_inputs
+from veduta.carve.build.hull import carve_hull, outline_distances, root_of
 from veduta.carve.options import SilhouetteOptions
 from veduta.carve.read.views import read_views
 from veduta.carve.views import camera_rows
@@ -48,6 +49,23 @@ def carve_inputs(data: Path) -> Arrays:
         "corners": np.array([corner for _, corner in fields], dtype=np.float64),
         "low": root.low_m,
         "side": np.array(root.side_m),
+    }
+
+
+def sweep_arrays(data: Path) -> Arrays:
+    """Middlebury's dino, on which the colours carve: 16 photos, the hull at 128 voxels a side."""
+    folder = data / "silhouettes" / "dinoSparseRing"
+    views = read_views(folder, read_cameras(folder), SilhouetteOptions()).views
+    hull = carve_hull(views, root_of(find_bounds(views), 7))
+    cameras, photos, distances, corners, solid, low, side = sweep_inputs(views, hull)
+    found: Arrays = {f"sp{number}": photo for number, photo in enumerate(photos)}
+    found |= {f"sd{number}": field for number, field in enumerate(distances)}
+    return found | {
+        "scams": cameras,
+        "scorners": corners,
+        "ssolid": solid,
+        "slow": np.array(low),
+        "sside": np.array(side),
     }
 
 

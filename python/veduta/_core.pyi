@@ -41,6 +41,18 @@ class GraphicsCard:
         levels: int,
     ) -> CarvedVolume:
         """As `carve_hull` does."""
+    def sweep_colours(
+        self,
+        cameras: _Array2[np.float64],
+        photos: Sequence[_Array3[np.uint8]],
+        distances: Sequence[_Array2[np.float32]],
+        corners: _Array2[np.float64],
+        solid: _Array3[np.bool_],
+        low_m: tuple[float, float, float],
+        side_m: float,
+        rule: SweepRule,
+    ) -> tuple[_Array3[np.bool_], list[int], _Array1[np.float32]]:
+        """As `sweep_colours` does."""
     def match_planes(
         self,
         image: _Array2[np.uint8],
@@ -130,26 +142,6 @@ def vertex_colours(
 ) -> tuple[_Array2[np.uint8], _Array1[np.uint16]]:
     """Colours (v, 3) of vertices with unit normals, blended from the best views that see them, and how
     many views do. Those that none sees take the colours around them. cameras: as in `carve_hull`.
-    """
-
-def sweep_colours(
-    cameras: _Array2[np.float64],
-    photos: Sequence[_Array3[np.uint8]],
-    distances: Sequence[_Array2[np.float32]],
-    corners: _Array2[np.float64],
-    solid: _Array3[np.bool_],
-    low_m: tuple[float, float, float],
-    side_m: float,
-    *,
-    spread: float,
-    least_views: int,
-    most_views: int,
-    least_cosine: float,
-    rim_voxels: float,
-    sweeps: int,
-) -> tuple[_Array3[np.bool_], list[int], _Array1[np.float32]]:
-    """What colours that disagree leave of the voxels of a cube: whether each is solid, how many each sweep
-    carved, and the spreads (grey levels) of the hull's own voxels. With no sweeps it only measures.
     """
 
 def seen_triangles(
@@ -993,6 +985,37 @@ def derive_surroundings(
 ) -> Surroundings:
     """Derives what lots put in the way of others, as `derive_lots` derives them. A lot that fails puts
     nothing there; that it takes long is no fault here.
+    """
+
+# sweeping.rs
+class SweepRule:
+    """When a voxel is carved: disagreement of colours (grey levels) that is too much; fewer views that see
+    a voxel say nothing of it, more are not asked; the least cosine of the angle under which they do; what
+    is so near to an outline (voxels) stays where nothing else holds it up; sweeps at most.
+    """
+    def __new__(
+        cls,
+        *,
+        spread: float,
+        least_views: int,
+        most_views: int,
+        least_cosine: float,
+        rim_voxels: float,
+        sweeps: int,
+    ) -> SweepRule: ...
+
+def sweep_colours(
+    cameras: _Array2[np.float64],
+    photos: Sequence[_Array3[np.uint8]],
+    distances: Sequence[_Array2[np.float32]],
+    corners: _Array2[np.float64],
+    solid: _Array3[np.bool_],
+    low_m: tuple[float, float, float],
+    side_m: float,
+    rule: SweepRule,
+) -> tuple[_Array3[np.bool_], list[int], _Array1[np.float32]]:
+    """What colours that disagree leave of the voxels of a cube: whether each is solid, how many each sweep
+    carved, and the spreads (grey levels) of the hull's own voxels. With no sweeps it only measures.
     """
 
 # texture.rs

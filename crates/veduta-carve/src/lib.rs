@@ -8,6 +8,7 @@ pub mod colours;
 mod deepen;
 mod error;
 pub mod hull;
+pub mod judging;
 pub mod raster;
 pub mod sweep;
 mod view;

@@ -9,10 +9,9 @@
 
 use rayon::prelude::*;
 
-use crate::colours::facing;
 use crate::error::CarveError;
+use crate::judging::Cores;
 use crate::view::{Photo, View};
-use crate::visibility::DepthMap;
 use crate::volume::Root;
 
 /// When a voxel is carved.
@@ -43,8 +42,6 @@ pub struct Swept {
     pub hull_spreads: Vec<f32>,
 }
 
-/// Between two looks along a ray.
-const STEP_VOXELS: f64 = 0.7;
 const STEPS: [[isize; 3]; 6] = [
     [1, 0, 0],
     [-1, 0, 0],
@@ -54,6 +51,21 @@ const STEPS: [[isize; 3]; 6] = [
     [0, 0, -1],
 ];
 
+/// Where voxels are judged: all of the work that grows with the views. A voxel is known by its order
+/// in the cube, x slowest.
+pub trait Judge {
+    /// Of each voxel that is asked for, the spread of its colours where enough views see it. shell: the
+    /// grey voxels of all that is solid, which hide one another.
+    fn spreads(
+        &self,
+        solid: &[bool],
+        shell: &[usize],
+        asked: &[usize],
+    ) -> Result<Vec<Option<f32>>, CarveError>;
+    /// Whether each of the wanted voxels alone holds an outline up, of what would be left without them.
+    fn held(&self, left: &[bool], wanted: &[usize]) -> Result<Vec<bool>, CarveError>;
+}
+
 /// Carves what is solid; photos and views in the same order. With no sweeps it only measures.
 pub fn sweep(
     photos: &[Photo<'_>],
@@ -62,10 +74,32 @@ pub fn sweep(
     solid: Vec<bool>,
     rule: &SweepRule,
 ) -> Result<Swept, CarveError> {
+    check(photos, views)?;
+    let cores = Cores {
+        photos,
+        views,
+        root,
+        rule,
+    };
+    sweep_on(&cores, root, solid, rule)
+}
+
+/// Whether photos and views can be looked at.
+pub fn check(photos: &[Photo<'_>], views: &[View<'_>]) -> Result<(), CarveError> {
     for (at, (photo, view)) in photos.iter().zip(views).enumerate() {
         photo.check(at)?;
         view.check(at)?;
     }
+    Ok(())
+}
+
+/// The same on another engine, which has photos and views. `check` is the caller's.
+pub fn sweep_on(
+    engine: &dyn Judge,
+    root: &Root,
+    solid: Vec<bool>,
+    rule: &SweepRule,
+) -> Result<Swept, CarveError> {
     let mut swept = Swept {
         solid,
         ..Swept::default()
@@ -73,7 +107,7 @@ pub fn sweep(
     let mut asked = grey(&swept.solid, root.voxels());
     for number in 0..rule.sweeps.max(1) {
         let shell = grey(&swept.solid, root.voxels());
-        let judged = judge_all(photos, root, &swept.solid, &shell, &asked, rule);
+        let judged = engine.spreads(&swept.solid, &shell, &asked)?;
         if number == 0 {
             swept.hull_spreads = judged.iter().copied().flatten().collect();
         }
@@ -87,10 +121,14 @@ pub fn sweep(
             .collect();
         let mut left = swept.solid.clone();
         wanted.iter().for_each(|voxel| left[*voxel] = false);
-        let (held, gone): (Vec<usize>, Vec<usize>) = wanted
-            .par_iter()
-            .partition(|voxel| holds_up(views, root, &left, **voxel, rule));
-        held.iter().for_each(|voxel| left[*voxel] = true);
+        let held = engine.held(&left, &wanted)?;
+        let mut gone = Vec::with_capacity(wanted.len());
+        for (voxel, held) in wanted.into_iter().zip(held) {
+            left[voxel] = held;
+            if !held {
+                gone.push(voxel);
+            }
+        }
         swept.solid = left;
         swept.carved.push(gone.len());
         if gone.is_empty() {
@@ -101,11 +139,12 @@ pub fn sweep(
     Ok(swept)
 }
 
-fn place(voxel: usize, along: usize) -> [usize; 3] {
+/// Where in the cube a voxel lies.
+pub(crate) fn place(voxel: usize, along: usize) -> [usize; 3] {
     [voxel / along / along, voxel / along % along, voxel % along]
 }
 
-fn beside(voxel: usize, step: [isize; 3], along: usize) -> Option<usize> {
+pub(crate) fn beside(voxel: usize, step: [isize; 3], along: usize) -> Option<usize> {
     let at = place(voxel, along);
     let mut next = 0;
     for axis in 0..3 {
@@ -149,140 +188,4 @@ fn around(solid: &[bool], gone: &[usize], along: usize, reach: isize) -> Vec<usi
     near.par_sort_unstable();
     near.dedup();
     near
-}
-
-/// The way out of the solid, from how full the neighbourhood is.
-fn normal(solid: &[bool], voxel: usize, along: usize) -> [f64; 3] {
-    let mut out = [0.0; 3];
-    for x in -2..=2 {
-        for y in -2..=2 {
-            for z in -2..=2 {
-                let step = [x, y, z];
-                if !beside(voxel, step, along).is_some_and(|next| solid[next]) {
-                    (0..3).for_each(|axis| out[axis] += step[axis] as f64);
-                }
-            }
-        }
-    }
-    let length = out.iter().map(|one| one * one).sum::<f64>().sqrt();
-    if length > 0.0 {
-        out.map(|one| one / length)
-    } else {
-        [0.0; 3]
-    }
-}
-
-/// Whether a silhouette's outline would shrink without a voxel: of all that is left, nothing else lies
-/// on the view's ray through it.
-fn holds_up(
-    views: &[View<'_>],
-    root: &Root,
-    left: &[bool],
-    voxel: usize,
-    rule: &SweepRule,
-) -> bool {
-    let at = root.centre(place(voxel, root.voxels()));
-    views.iter().any(|view| {
-        let (pixel, depth) = view.projection.project(at);
-        let voxel_px = view.projection.focal_px * root.voxel_m() / depth;
-        let near = f64::from(view.distance_px(pixel)).abs() < rule.rim_voxels * voxel_px;
-        depth > 0.0 && near && !backed(view, root, left, at, rule.rim_voxels)
-    })
-}
-
-/// Whether something is left on the ray of a view through a place, farther off than so many voxels.
-fn backed(view: &View<'_>, root: &Root, left: &[bool], at: [f64; 3], voxels: f64) -> bool {
-    let along = root.voxels();
-    let way: [f64; 3] = std::array::from_fn(|axis| at[axis] - view.projection.centre_m[axis]);
-    let length = way.iter().map(|one| one * one).sum::<f64>().sqrt();
-    let solid = |away: f64| -> Option<bool> {
-        let mut voxel = 0;
-        for axis in 0..3 {
-            let place = at[axis] + way[axis] / length * away * root.voxel_m();
-            let cell = ((place - root.low_m[axis]) / root.voxel_m()).floor();
-            if !(cell >= 0.0 && cell < along as f64) {
-                return None;
-            }
-            voxel = voxel * along + cell as usize;
-        }
-        Some(left[voxel])
-    };
-    [1.0, -1.0].iter().any(|sign| {
-        let steps = (1..).map(|step| sign * (voxels + STEP_VOXELS * f64::from(step)));
-        steps.map_while(solid).any(|one| one)
-    })
-}
-
-/// Of each voxel that is asked for, the spread of its colours where enough views see it.
-fn judge_all(
-    photos: &[Photo<'_>],
-    root: &Root,
-    solid: &[bool],
-    shell: &[usize],
-    asked: &[usize],
-    rule: &SweepRule,
-) -> Vec<Option<f32>> {
-    let along = root.voxels();
-    let centres: Vec<[f64; 3]> = shell
-        .par_iter()
-        .map(|voxel| root.centre(place(*voxel, along)))
-        .collect();
-    let maps: Vec<DepthMap> = photos
-        .par_iter()
-        .map(|photo| {
-            let size = [photo.width, photo.height];
-            DepthMap::of_points(&photo.projection, size, &centres, 0.6 * root.voxel_m())
-        })
-        .collect();
-    asked
-        .par_iter()
-        .map(|voxel| {
-            let at = root.centre(place(*voxel, along));
-            let out = normal(solid, *voxel, along);
-            judge(photos, &maps, root, at, out, rule)
-        })
-        .collect()
-}
-
-fn judge(
-    photos: &[Photo<'_>],
-    maps: &[DepthMap],
-    root: &Root,
-    at: [f64; 3],
-    out: [f64; 3],
-    rule: &SweepRule,
-) -> Option<f32> {
-    let mut seen: Vec<(f64, [f32; 3])> = Vec::with_capacity(rule.most_views + 1);
-    for (photo, map) in photos.iter().zip(maps) {
-        let (pixel, depth) = photo.projection.project(at);
-        if depth <= 0.0 {
-            continue;
-        }
-        let Some(cosine) = facing(photo.projection.centre_m, at, out) else {
-            continue;
-        };
-        if cosine < rule.least_cosine || !map.sees(pixel, depth, 1.5 * root.voxel_m()) {
-            continue;
-        }
-        if let Some(colour) = photo.colour(pixel) {
-            let place = seen.partition_point(|one| one.0 >= cosine);
-            seen.insert(place, (cosine, colour));
-            seen.truncate(rule.most_views);
-        }
-    }
-    (seen.len() >= rule.least_views).then(|| spread_of(&seen))
-}
-
-/// Root mean square distance of the colours from their mean, per channel.
-fn spread_of(seen: &[(f64, [f32; 3])]) -> f32 {
-    let count = seen.len() as f32;
-    let mut squares = 0.0;
-    for channel in 0..3 {
-        let mean = seen.iter().map(|one| one.1[channel]).sum::<f32>() / count;
-        squares += seen
-            .iter()
-            .map(|one| (one.1[channel] - mean).powi(2))
-            .sum::<f32>();
-    }
-    (squares / (3.0 * count)).sqrt()
 }

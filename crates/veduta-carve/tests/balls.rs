@@ -2,76 +2,12 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod ball;
+
+use ball::{distances, photo, photos, ring, root, views, FOCAL};
 use veduta_carve::sweep::{sweep, SweepRule};
-use veduta_carve::{hull, CarveError, Photo, Projection, Root, View, Volume};
+use veduta_carve::{hull, CarveError, Root, View, Volume};
 use veduta_surface::surface_nets;
-
-const SIZE: usize = 120;
-const FOCAL: f64 = 150.0;
-const AWAY: f64 = 3.0;
-
-/// A camera on the ring about z that looks at the origin.
-fn camera(angle: f64, height: f64) -> Projection {
-    let (across, up) = (height.cos(), height.sin());
-    let back = [angle.cos() * across, angle.sin() * across, up];
-    let right = [-angle.sin(), angle.cos(), 0.0];
-    let forward = back.map(|one| -one);
-    let down = [
-        forward[1] * right[2] - forward[2] * right[1],
-        forward[2] * right[0] - forward[0] * right[2],
-        forward[0] * right[1] - forward[1] * right[0],
-    ];
-    let centre = back.map(|one| one * AWAY);
-    let row = |axis: [f64; 3]| {
-        let shift: f64 = (0..3).map(|n| axis[n] * centre[n]).sum();
-        [axis[0], axis[1], axis[2], -shift]
-    };
-    let (x, y, z) = (row(right), row(down), row(forward));
-    let half = SIZE as f64 / 2.0;
-    Projection {
-        rows: [
-            std::array::from_fn(|n| FOCAL * x[n] + half * z[n]),
-            std::array::from_fn(|n| FOCAL * y[n] + half * z[n]),
-            z,
-        ],
-        focal_px: FOCAL,
-        centre_m: centre,
-    }
-}
-
-fn ring() -> Vec<Projection> {
-    let height = |n: u32| if n % 2 == 0 { 0.2 } else { -0.4 };
-    let angle = |n: u32| f64::from(n) * std::f64::consts::PI / 6.0;
-    (0..12).map(|n| camera(angle(n), height(n))).collect()
-}
-
-/// The distances to the circle that a ball about the origin shows.
-fn distances(radius: f64) -> Vec<f32> {
-    let shown = FOCAL * radius / (AWAY * AWAY - radius * radius).sqrt();
-    let middle = SIZE as f64 / 2.0;
-    let place = |n: usize| [n % SIZE, n / SIZE].map(|one| one as f64 + 0.5 - middle);
-    let of = |n: usize| (place(n)[0].hypot(place(n)[1]) - shown) as f32;
-    (0..SIZE * SIZE).map(of).collect()
-}
-
-fn views<'a>(cameras: &[Projection], distances_px: &'a [f32]) -> Vec<View<'a>> {
-    let of = |projection: &Projection| View {
-        projection: *projection,
-        corner_px: [0.0; 2],
-        width: SIZE,
-        height: SIZE,
-        distances_px,
-    };
-    cameras.iter().map(of).collect()
-}
-
-fn root(levels: u32) -> Root {
-    Root {
-        low_m: [-1.0, -1.1, -0.9],
-        side_m: 2.0,
-        levels,
-    }
-}
 
 fn carved(levels: u32) -> Volume {
     let field = distances(0.7);
@@ -158,20 +94,10 @@ fn what_a_field_carves_is_gone_and_the_rest_stays() {
 #[test]
 fn sweeps_dig_to_where_the_colours_agree() {
     let (field, cameras) = (distances(0.7), ring());
-    let shown: Vec<Vec<u8>> = cameras.iter().map(|one| photo(one, 0.5)).collect();
+    let pixels: Vec<Vec<u8>> = cameras.iter().map(|one| photo(one, 0.5)).collect();
     let views = views(&cameras, &field);
     let volume = hull::carve(&views, root(5)).unwrap();
-    let of = |(projection, pixels): (&Projection, &'_ Vec<u8>)| (*projection, pixels.clone());
-    let kept: Vec<(Projection, Vec<u8>)> = cameras.iter().zip(&shown).map(of).collect();
-    let photos: Vec<Photo<'_>> = kept
-        .iter()
-        .map(|(projection, pixels)| Photo {
-            projection: *projection,
-            width: SIZE,
-            height: SIZE,
-            pixels,
-        })
-        .collect();
+    let photos = photos(&cameras, &pixels);
     let rule = SweepRule {
         spread: 25.0,
         least_views: 3,
@@ -190,28 +116,6 @@ fn sweeps_dig_to_where_the_colours_agree() {
     };
     let kept = sweep(&photos, &views, &volume.root, solid.clone(), &held).unwrap();
     assert_eq!(kept.solid, solid, "all voxels hold an outline up");
-}
-
-/// What a camera sees of a ball about the origin.
-fn photo(camera: &Projection, radius: f64) -> Vec<u8> {
-    let (half, forward) = (SIZE as f64 / 2.0, camera.centre_m.map(|one| -one / AWAY));
-    let axis = |n: usize| -> [f64; 3] {
-        std::array::from_fn(|k| (camera.rows[n][k] - half * forward[k]) / FOCAL)
-    };
-    let (right, down) = (axis(0), axis(1));
-    let colour = |n: usize| {
-        let [x, y] = [n % SIZE, n / SIZE].map(|one| (one as f64 + 0.5 - half) / FOCAL);
-        let ray: [f64; 3] = std::array::from_fn(|k| forward[k] + x * right[k] + y * down[k]);
-        let a: f64 = ray.iter().map(|one| one * one).sum();
-        let b: f64 = (0..3).map(|k| ray[k] * camera.centre_m[k]).sum();
-        let root = b * b - a * (AWAY * AWAY - radius * radius);
-        if root < 0.0 {
-            return [0; 3];
-        }
-        let t = (-b - root.sqrt()) / a;
-        [0, 1, 2].map(|k| (128.0 + 120.0 * (9.0 * (camera.centre_m[k] + t * ray[k])).sin()) as u8)
-    };
-    (0..SIZE * SIZE).flat_map(colour).collect()
 }
 
 #[test]

@@ -8,22 +8,11 @@ use veduta_carve::{CarveError, Root, View, Volume, IN_BLOCK};
 
 use crate::card::{Card, Kernel};
 use crate::error::GpuError;
+use crate::views::GivenView;
 
-const SOURCE: &str = include_str!("carve.wgsl");
+const SOURCE: &str = concat!(include_str!("views.wgsl"), include_str!("carve.wgsl"));
 /// Blocks whose voxels are measured at once: 32 MB.
 const AT_ONCE: usize = 16_384;
-
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct GivenView {
-    rows: [[f32; 4]; 3],
-    centre: [f32; 3],
-    focal: f32,
-    corner: [f32; 2],
-    size: [u32; 2],
-    offset: u32,
-    spare: [u32; 3],
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -84,7 +73,7 @@ impl<'a> OnCard<'a> {
         let mut distances: Vec<f32> = Vec::new();
         let mut given = Vec::with_capacity(views.len());
         for view in views {
-            given.push(given_view(view, &root, distances.len()));
+            given.push(GivenView::of_outline(view, &root, distances.len()));
             distances.extend_from_slice(view.distances_px);
         }
         Ok(Self {
@@ -187,23 +176,4 @@ fn corners(cubes: &[Cube]) -> Vec<[u32; 4]> {
         [x, y, z, 0]
     };
     cubes.iter().map(of).collect()
-}
-
-/// A view as seen from the root's corner: single precision is enough for an object, not for where it
-/// lies on the earth.
-fn given_view(view: &View<'_>, root: &Root, offset: usize) -> GivenView {
-    let rows = view.projection.rows.map(|row| {
-        let moved: f64 = row[3] + (0..3).map(|axis| row[axis] * root.low_m[axis]).sum::<f64>();
-        [row[0] as f32, row[1] as f32, row[2] as f32, moved as f32]
-    });
-    let centre = view.projection.centre_m;
-    GivenView {
-        rows,
-        centre: std::array::from_fn(|axis| (centre[axis] - root.low_m[axis]) as f32),
-        focal: view.projection.focal_px as f32,
-        corner: view.corner_px.map(|one| one as f32),
-        size: [view.width as u32, view.height as u32],
-        offset: offset as u32,
-        spare: [0; 3],
-    }
 }

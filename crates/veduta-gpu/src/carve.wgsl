@@ -1,20 +1,5 @@
 // The silhouettes' test (4.1 to 4.3): a cube's sphere, or a voxel, in the picture of each view.
 
-struct View {
-    // (4.1), (4.2): pixels and depth of a point; the fourth column counts from the root's corner.
-    row_x: vec4<f32>,
-    row_y: vec4<f32>,
-    row_z: vec4<f32>,
-    centre: vec3<f32>,
-    focal: f32,
-    corner: vec2<f32>,
-    size: vec2<u32>,
-    offset: u32,
-    spare_a: u32,
-    spare_b: u32,
-    spare_c: u32,
-}
-
 struct Grid {
     side: f32,
     voxel: f32,
@@ -27,8 +12,6 @@ struct Grid {
 }
 
 @group(0) @binding(0) var<storage, read> grid: Grid;
-@group(0) @binding(1) var<storage, read> views: array<View>;
-@group(0) @binding(2) var<storage, read> distances: array<f32>;
 @group(0) @binding(3) var<storage, read> cubes: array<vec4<u32>>;
 @group(0) @binding(4) var<storage, read_write> open: array<u32>;
 @group(0) @binding(5) var<storage, read_write> found: array<u32>;
@@ -38,22 +21,6 @@ const OUTSIDE = 0u;
 const INSIDE = 1u;
 const BOUNDARY = 2u;
 const BLOCK = 8u;
-
-fn value(view: u32, column: u32, row: u32) -> f32 {
-    return distances[views[view].offset + row * views[view].size.x + column];
-}
-
-// Between the four pixels around; beyond the border that of the border.
-fn distance_px(view: u32, at: vec2<f32>) -> f32 {
-    let most = vec2<f32>(views[view].size - vec2<u32>(1u));
-    let place = clamp(at - views[view].corner - 0.5, vec2<f32>(0.0), most);
-    let low = vec2<u32>(place);
-    let high = min(low + 1u, views[view].size - vec2<u32>(1u));
-    let part = place - vec2<f32>(low);
-    let upper = value(view, low.x, low.y) * (1.0 - part.x) + value(view, high.x, low.y) * part.x;
-    let lower = value(view, low.x, high.y) * (1.0 - part.x) + value(view, high.x, high.y) * part.x;
-    return upper * (1.0 - part.y) + lower * part.y;
-}
 
 fn judged(view: u32, middle: vec3<f32>, radius: f32) -> u32 {
     let point = vec4<f32>(middle, 1.0);

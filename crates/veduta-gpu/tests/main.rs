@@ -2,11 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+#[path = "../../veduta-carve/tests/ball/mod.rs"]
+mod ball;
 mod carving;
 mod matching;
 #[path = "../../veduta-stereo/tests/scene.rs"]
 mod scene;
 mod searching;
+mod sweeping;
 mod vanishing;
 
 use veduta_gpu::{Card, GpuError};

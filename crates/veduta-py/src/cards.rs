@@ -1,6 +1,6 @@
 //! A graphics card for Python, and what runs on it: `veduta_gpu`, the GIL released.
 
-use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::create_exception;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -9,6 +9,7 @@ use veduta_gpu::carve::Carver;
 use veduta_gpu::link::Linker;
 use veduta_gpu::pair::Matcher;
 use veduta_gpu::search::Searcher;
+use veduta_gpu::sweep::Sweeper;
 use veduta_gpu::{Card, GpuError};
 use veduta_stereo::link::Step;
 
@@ -16,6 +17,7 @@ use crate::carve::{views_of, CarvedVolume};
 use crate::linking::{own_step, rectified, shaped, step_of, told, OwnStep};
 use crate::stereo::{camera_of, planes_told, Matching};
 use crate::stereo_rules::{LinkRule, PairRule, SearchRule};
+use crate::sweeping::{left_of, SweepRule, Sweeping};
 
 /// As in `linking`: the stub's types are read file by file.
 type GivenStep<'py> = (
@@ -28,6 +30,12 @@ type Found<'py> = (
     Bound<'py, PyArray1<f32>>,
     Bound<'py, PyArray1<f32>>,
     Bound<'py, PyArray1<u8>>,
+);
+
+type Left<'py> = (
+    Bound<'py, PyArray3<bool>>,
+    Vec<usize>,
+    Bound<'py, PyArray1<f32>>,
 );
 
 create_exception!(_core, GpuFault, PyRuntimeError);
@@ -44,6 +52,7 @@ struct GraphicsCard {
     linker: Linker,
     searcher: Searcher,
     carver: Carver,
+    sweeper: Sweeper,
 }
 
 #[pymethods]
@@ -59,6 +68,7 @@ impl GraphicsCard {
                 linker: Linker::new(&card),
                 searcher: Searcher::new(&card),
                 carver: Carver::new(&card),
+                sweeper: Sweeper::new(&card),
                 card,
             })
         })
@@ -97,6 +107,36 @@ impl GraphicsCard {
         Ok(CarvedVolume {
             volume: found.map_err(fault)?,
         })
+    }
+
+    /// As `sweep_colours` does.
+    #[pyo3(signature = (cameras, photos, distances, corners, solid, low_m, side_m, rule))]
+    #[allow(clippy::too_many_arguments)] // each is one thing to who calls
+    fn sweep_colours<'py>(
+        &self,
+        py: Python<'py>,
+        cameras: PyReadonlyArray2<'py, f64>,
+        photos: Vec<PyReadonlyArray3<'py, u8>>,
+        distances: Vec<PyReadonlyArray2<'py, f32>>,
+        corners: PyReadonlyArray2<'py, f64>,
+        solid: PyReadonlyArray3<'py, bool>,
+        low_m: [f64; 3],
+        side_m: f64,
+        rule: &SweepRule,
+    ) -> PyResult<Left<'py>> {
+        let outlines = (&distances[..], &corners);
+        let given = Sweeping::new(&cameras, &photos, outlines, &solid, (low_m, side_m))?;
+        let Sweeping {
+            photos,
+            views,
+            root,
+            solid,
+        } = given;
+        let made = py.detach(|| {
+            let on = &self.sweeper;
+            on.sweep(&self.card, &photos, &views, &root, solid, &rule.rule)
+        });
+        left_of(py, made.map_err(fault)?, root.levels)
     }
 
     /// As `match_planes` does.

@@ -9,7 +9,6 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_carve::colours::{colours, ColourRule};
 use veduta_carve::raster::rasterise;
-use veduta_carve::sweep::{sweep, SweepRule};
 use veduta_carve::{hull, CarveError, Photo, Projection, Root, View, Volume};
 use veduta_surface::surface_nets;
 
@@ -17,7 +16,7 @@ use crate::surface::{arrays_of, fault_of, Arrays};
 
 create_exception!(_core, CarveFault, PyValueError);
 
-fn to_python(error: CarveError) -> PyErr {
+pub fn to_python(error: CarveError) -> PyErr {
     CarveFault::new_err(error.to_string())
 }
 
@@ -49,7 +48,11 @@ fn points_of(name: &str, points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f6
         .collect())
 }
 
-fn cube_of(py: Python<'_>, solid: Vec<bool>, levels: u32) -> PyResult<Bound<'_, PyArray3<bool>>> {
+pub fn cube_of(
+    py: Python<'_>,
+    solid: Vec<bool>,
+    levels: u32,
+) -> PyResult<Bound<'_, PyArray3<bool>>> {
     let along = 1 << levels;
     let cube = Array3::from_shape_vec((along, along, along), solid);
     let cube = cube.map_err(|why| PyValueError::new_err(why.to_string()))?;
@@ -213,7 +216,7 @@ fn vertex_colours<'py>(
     Ok((rgb, made.views.into_pyarray(py)))
 }
 
-fn photos_of<'a>(
+pub fn photos_of<'a>(
     cameras: &PyReadonlyArray2<'_, f64>,
     photos: &'a [PyReadonlyArray3<'_, u8>],
 ) -> PyResult<Vec<Photo<'a>>> {
@@ -230,62 +233,6 @@ fn photos_of<'a>(
         })
     })
     .collect()
-}
-
-type Swept<'py> = (
-    Bound<'py, PyArray3<bool>>,
-    Vec<usize>,
-    Bound<'py, PyArray1<f32>>,
-);
-
-/// What colours that disagree leave of the voxels of a cube: whether each is solid, how many each sweep
-/// carved, and the spreads (grey levels) of the hull's own voxels. With no sweeps it only measures.
-#[pyfunction]
-#[pyo3(signature = (cameras, photos, distances, corners, solid, low_m, side_m, *, spread, least_views,
-                    most_views, least_cosine, rim_voxels, sweeps))]
-#[allow(clippy::too_many_arguments)]
-fn sweep_colours<'py>(
-    py: Python<'py>,
-    cameras: PyReadonlyArray2<'py, f64>,
-    photos: Vec<PyReadonlyArray3<'py, u8>>,
-    distances: Vec<PyReadonlyArray2<'py, f32>>,
-    corners: PyReadonlyArray2<'py, f64>,
-    solid: PyReadonlyArray3<'py, bool>,
-    low_m: [f64; 3],
-    side_m: f64,
-    spread: f32,
-    least_views: usize,
-    most_views: usize,
-    least_cosine: f64,
-    rim_voxels: f64,
-    sweeps: usize,
-) -> PyResult<Swept<'py>> {
-    let taken = photos_of(&cameras, &photos)?;
-    let views = views_of(&cameras, &distances, &corners)?;
-    let along = solid.as_array().dim().0;
-    let levels = along.max(1).ilog2();
-    let solid = solid.as_slice()?.to_vec();
-    if taken.len() != views.len() || solid.len() != 1 << (3 * levels) {
-        let text = "there must be a photo for each view, and a cube of 2^n voxels along each edge";
-        return Err(PyValueError::new_err(text));
-    }
-    let root = Root {
-        low_m,
-        side_m,
-        levels,
-    };
-    let rule = SweepRule {
-        spread,
-        least_views,
-        most_views,
-        least_cosine,
-        rim_voxels,
-        sweeps,
-    };
-    let made = py.detach(|| sweep(&taken, &views, &root, solid, &rule));
-    let made = made.map_err(to_python)?;
-    let spreads = made.hull_spreads.into_pyarray(py);
-    Ok((cube_of(py, made.solid, levels)?, made.carved, spreads))
 }
 
 /// The triangle that each camera sees in the middle of each pixel, (h, w), -1 where there is none.
@@ -319,7 +266,6 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("CarveFault", m.py().get_type::<CarveFault>())?;
     m.add_class::<CarvedVolume>()?;
     m.add_function(wrap_pyfunction!(carve_hull, m)?)?;
-    m.add_function(wrap_pyfunction!(sweep_colours, m)?)?;
     m.add_function(wrap_pyfunction!(seen_triangles, m)?)?;
     m.add_function(wrap_pyfunction!(vertex_colours, m)?)
 }

@@ -32,6 +32,7 @@ mod stereo;
 mod stereo_rules;
 mod surface;
 mod surroundings;
+mod sweeping;
 mod texture;
 mod tile_buffers;
 mod tiles;
@@ -44,6 +45,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     #[cfg(feature = "gpu")]
     cards::register(m)?;
     carve::register(m)?;
+    sweeping::register(m)?;
     chain::register(m)?;
     compress::register(m)?;
     foreground::register(m)?;

@@ -32,7 +32,7 @@ from veduta.carve.stages import Stages
 from veduta.carve.turned import turn_views
 from veduta.carve.views import View
 from veduta.place.mesh import Mesh
-from veduta.run.card import choose_engine, tell_engine
+from veduta.run.card import Engine, choose_engine, tell_engine
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.names import real_path
@@ -86,8 +86,8 @@ def _make(work: Work, cameras: CameraSet, folder: Path, name: str, stages: Stage
         step.counts["cubes judged"] = sum(sum(level) for level in hull.volume.counts())
         if hull.volume.inside() == 0:
             raise _nothing(views)
+    consistency = _carve_by_colour(work, hull, views, options, engine)
     tell_engine(work, engine)
-    consistency = _carve_by_colour(work, hull, views, options)
     shape = _mesh(work, views, hull if consistency is None else consistency.hull, consistency)
     measures = _measure(work, views, shape, cameras)
     kept = options.volume.up == "kept" or cameras.crs is not None
@@ -161,12 +161,12 @@ def _nothing(views: Sequence[View]) -> NotFoundError:
 
 
 def _carve_by_colour(
-    work: Work, hull: Hull, views: Sequence[View], options: CarveOptions
+    work: Work, hull: Hull, views: Sequence[View], options: CarveOptions, engine: Engine
 ) -> Consistency | None:
     if not options.colour.carve:
         return None
     with work.step("colour consistency") as step:
-        found = carve_by_colour(hull, views, options.colour)
+        found = carve_by_colour(hull, views, options.colour, engine=engine)
         step.counts["sweeps"] = len(found.carved_by_sweep)
         step.counts["voxels carved"] = int(found.carved.sum())
     work.measure("colour_spread_typical", round(found.typical, 2))

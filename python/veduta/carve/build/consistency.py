@@ -14,8 +14,20 @@ from veduta import _core
 from veduta.carve.build.hull import Hull, Root, carve_hull, outline_distances
 from veduta.carve.options import ColourOptions
 from veduta.carve.views import Pixels, View, camera_rows
+from veduta.run.card import Engine
 
 Cube = NDArray[np.bool_]
+COLOURS = "colours"
+# cameras, photos, distances, corners, solid, low_m, side_m
+SweepInputs = tuple[
+    NDArray[np.float64],
+    list[Pixels],
+    list[NDArray[np.float32]],
+    NDArray[np.float64],
+    Cube,
+    list[float],
+    float,
+]
 
 
 @dataclass(frozen=True)
@@ -70,23 +82,27 @@ def carve_by_colour(
     views: Sequence[View],
     options: ColourOptions | None = None,
     rule: ConsistencyRule | None = None,
+    engine: Engine | None = None,
 ) -> Consistency:
-    """Take from the hull what the photos' colours contradict."""
+    """Take from the hull what the photos' colours contradict. engine: the processor if not given."""
     rule, options = rule or ConsistencyRule(), options or ColourOptions()
     root = _sweep_root(hull.root, views, rule)
     own = hull if root.levels == hull.root.levels else carve_hull(views, root)
-    solid = own.volume.solid()
-    fields = [outline_distances(view.mask) for view in views]
-    rows = camera_rows([view.camera for view in views])
-    photos = [_at_voxels(view, root) for view in views]
-    corners = np.array([corner for _, corner in fields], dtype=np.float64)
+    given = sweep_inputs(views, own)
+    solid = given[4]
 
     def swept(spread: float, sweeps: int) -> tuple[Cube, list[int], NDArray[np.float32]]:
-        return _core.sweep_colours(
-            rows, photos, [one for one, _ in fields], corners, solid, root.low_m.tolist(),
-            root.side_m, spread=spread, least_views=rule.least_views, most_views=rule.most_views,
+        when = _core.SweepRule(
+            spread=spread, least_views=rule.least_views, most_views=rule.most_views,
             least_cosine=rule.least_cosine, rim_voxels=rule.rim_voxels, sweeps=sweeps,
         )  # fmt: skip
+        if engine is None:
+            return _core.sweep_colours(*given, when)
+        return engine.run(
+            lambda card: card.sweep_colours(*given, when),
+            lambda: _core.sweep_colours(*given, when),
+            COLOURS,
+        )
 
     spreads = swept(255.0, 0)[2]
     typical = float(np.median(spreads)) if len(spreads) else 0.0
@@ -97,6 +113,20 @@ def carve_by_colour(
         return Consistency(hull, carved, root, tuple(by_sweep), spread, typical)
     volume = hull.volume.deepened(_field(solid, carved, root, rule))
     return Consistency(Hull(hull.root, volume), carved, root, tuple(by_sweep), spread, typical)
+
+
+def sweep_inputs(views: Sequence[View], hull: Hull) -> SweepInputs:
+    """What `_core.sweep_colours` takes besides its rule, for the voxels of a hull."""
+    fields = [outline_distances(view.mask) for view in views]
+    return (
+        camera_rows([view.camera for view in views]),
+        [_at_voxels(view, hull.root) for view in views],
+        [distances for distances, _ in fields],
+        np.array([corner for _, corner in fields], dtype=np.float64),
+        hull.volume.solid(),
+        hull.root.low_m.tolist(),
+        hull.root.side_m,
+    )
 
 
 def _sweep_root(root: Root, views: Sequence[View], rule: ConsistencyRule) -> Root:
