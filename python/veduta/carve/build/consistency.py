@@ -25,7 +25,7 @@ SweepInputs = tuple[
     list[NDArray[np.float32]],
     NDArray[np.float64],
     Cube,
-    list[float],
+    tuple[float, float, float],
     float,
 ]
 
@@ -124,7 +124,7 @@ def sweep_inputs(views: Sequence[View], hull: Hull) -> SweepInputs:
         [distances for distances, _ in fields],
         np.array([corner for _, corner in fields], dtype=np.float64),
         hull.volume.solid(),
-        hull.root.low_m.tolist(),
+        (float(hull.root.low_m[0]), float(hull.root.low_m[1]), float(hull.root.low_m[2])),
         hull.root.side_m,
     )
 
