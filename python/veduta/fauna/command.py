@@ -34,7 +34,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "4"
+VERSION = "5"
 MODEL = "animal.glb"
 
 
@@ -131,9 +131,6 @@ def _document(
     if marked is not None:
         fault = f"has joints of a body plan, and a {options.animal.kind} is read by its axis alone"
         raise InputError(marked, fault, "Choose --kind quadruped or lizard, or give a --plan.")
-    if options.animal.view == "side":
-        fault = "is to be seen from the side, but an animal without limbs is read from above"
-        raise InputError(record.path, fault, "Give footage from above, or a body plan (--plan).")
     read = read_record(work, record, options)
     return read.described.animal, read.coat
 
@@ -168,7 +165,7 @@ def _tell(work: Work, animal: Animal, built: Built) -> None:
         high = max(piece.half_height for piece in animal.body.slices)
         wide = max(piece.half_width for piece in animal.body.slices)
         work.note(
-            f"by the second view it is {2.0 * high * animal.length.metres:.2g} m high where it is"
+            f"it is {2.0 * high * animal.length.metres:.2g} m high where it is"
             f" highest, {high / wide:.2g} times its width"
         )
     for gait in built.gaits:

@@ -13,19 +13,21 @@ from veduta.fauna.document.schema import Source
 from veduta.fauna.motion.angles import angles_of
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.pictures import angles_over_time, angles_picture, axes_picture
-from veduta.fauna.read.coat import coat_from_above
+from veduta.fauna.read.coat import coat_from_above, coat_from_side
 from veduta.fauna.read.footage import Footage, cropped, read_footage, read_masks
+from veduta.fauna.read.from_side import straight_axes
 from veduta.fauna.read.limbless import Seen, axes_in, silhouettes_in, tracked_axes
 from veduta.fauna.read.midlines import read_midlines
 from veduta.fauna.read.overlap import drawn_body, overlap
 from veduta.fauna.read.registered import CameraLooks, stilled
 from veduta.fauna.read.second_silhouettes import SilhouettePictures, read_second_view
 from veduta.fauna.read.second_view import SecondView
+from veduta.fauna.read.side_document import describe_from_side
 from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
 from veduta.fauna.seen_pictures import second_picture, silhouettes_picture
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
-from veduta.run.errors import NotFoundError
+from veduta.run.errors import InputError, NotFoundError
 from veduta.run.work import Work
 
 
@@ -76,6 +78,9 @@ class Read:
 def read_record(work: Work, record: Record, options: FaunaOptions) -> Read:
     """The document of the animal in the record, and its coat."""
     if record.path.suffix.lower() == ".csv":
+        if options.animal.view == "side":
+            fault = "has midlines, which are those of an animal that was seen from above"
+            raise InputError(record.path, fault, "Leave --view out, or give the footage itself.")
         with work.step("axis") as step:
             tracked = read_midlines(record.path)
             read = Read(_described(work, record, tracked, options), None)
@@ -99,7 +104,14 @@ def second_view(work: Work, record: Record) -> SecondView | None:
     return view
 
 
-def _described(work: Work, record: Record, tracked: Tracked, options: FaunaOptions) -> Described:
+def _described(
+    work: Work,
+    record: Record,
+    tracked: Tracked,
+    options: FaunaOptions,
+    areas: NDArray[np.float64] | None = None,
+) -> Described:
+    """areas: (t,) of the silhouettes of an animal that is seen from the side."""
     path = record.path
     source = Source(
         file=path.name,
@@ -107,7 +119,10 @@ def _described(work: Work, record: Record, tracked: Tracked, options: FaunaOptio
         frames=max(1, len(tracked.points) + len(tracked.left_out)),
         used=max(1, len(tracked.points)),
     )
-    return describe(tracked, path.stem, source, options, second_view(work, record))
+    second = second_view(work, record)
+    if areas is None:
+        return describe(tracked, path.stem, source, options, second)
+    return describe_from_side(tracked, areas, path.stem, source, options, second)
 
 
 def still_footage(work: Work, record: Record, options: FaunaOptions) -> Footage:
@@ -154,8 +169,11 @@ def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
             " it was filled from around"
         )
     with work.step("axis") as step:
-        seen = Seen(found, axes_in(found), background)
-        described = _described(work, record, tracked_axes(footage, seen), options)
+        axes = axes_in(found) if _bends(options) else straight_axes(found.masks)
+        seen = Seen(found, axes, background)
+        tracked = tracked_axes(footage, seen)
+        areas = _areas(footage, seen, tracked) if options.animal.view == "side" else None
+        described = _described(work, record, tracked, options, areas)
         step.counts["used"] = described.animal.source.used
     with work.step("coat"):
         read = _with_coat(footage, described)
@@ -163,12 +181,27 @@ def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
     return read
 
 
+def _bends(options: FaunaOptions) -> bool:
+    """Whether what is seen bends: a fish from the side is straight."""
+    return options.animal.kind != "fish" or options.animal.view != "side"
+
+
+def _areas(footage: Footage, seen: Seen, tracked: Tracked) -> NDArray[np.float64]:
+    """(t,) px of the silhouettes whose axes were found."""
+    chosen = np.isin(footage.number[seen.silhouettes.rows], tracked.frame)
+    return np.asarray(seen.silhouettes.masks[chosen].sum(axis=(1, 2)), dtype=np.float64)
+
+
 def _with_coat(footage: Footage, described: Described) -> Read:
     """The footage's colours; the document names them."""
     animal, tracked = described.animal, described.tracked
     rows = np.searchsorted(footage.number, tracked.frame)
     points, half = _in_pixels(footage, described)
-    coat = coat_from_above(footage.frames[rows], points, half)
+    frames = footage.frames[rows]
+    if described.looks_right is None:
+        coat = coat_from_above(frames, points, half)
+    else:
+        coat = coat_from_side(frames, points, half, described.looks_right)
     body = animal.body.model_copy(update={"coat": COAT})
     return Read(replace(described, animal=animal.model_copy(update={"body": body})), coat)
 
@@ -176,13 +209,14 @@ def _with_coat(footage: Footage, described: Described) -> Read:
 def _in_pixels(
     footage: Footage, described: Described
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(t, n, 2) the axes, y down, and (n,) the body's half width along them."""
+    """(t, n, 2) the axes, y down, and (n,) half of how thick the body is along them as seen."""
     points = described.tracked.points.copy()
     points[..., 1] = footage.size[0] - points[..., 1]
     slices = described.animal.body.slices
     lengths = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     along = np.linspace(0.0, 1.0, points.shape[1])
-    share = np.interp(along, [piece.at for piece in slices], [piece.half_width for piece in slices])
+    thick = [piece.half_height if described.from_side else piece.half_width for piece in slices]
+    share = np.interp(along, [piece.at for piece in slices], thick)
     return points, share * float(np.median(lengths))
 
 
@@ -206,13 +240,15 @@ def _tell_silhouettes(work: Work, footage: Footage, seen: Seen, described: Descr
 
 def _tell_axes(work: Work, described: Described) -> None:
     """Figure 11 for this animal."""
-    again = angles_of(described.states, SAMPLES)
     work.picture(
         "The axis through the footage",
         "early frames blue, late ones red; a dot at the head",
         axes_picture(described.axes),
         wide=True,
     )
+    if described.from_side:
+        return  # its angles are those of its kind
+    again = angles_of(described.states, SAMPLES)
     middle = len(again) // 2
     work.picture(
         "The angle of the axis",

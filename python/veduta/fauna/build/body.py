@@ -64,7 +64,8 @@ def body_mesh(animal: Animal, clips: tuple[Clip, ...], coat: Texture | None = No
     triangles = _between(*shape)
     flat = positions.reshape(-1, 3)
     spine = spine_of(animal)
-    provenance = Provenance.MEASURED if animal.body.widths == "measured" else Provenance.INVENTED
+    is_measured = "measured" in (animal.body.widths, animal.body.heights)
+    provenance = Provenance.MEASURED if is_measured else Provenance.INVENTED
     name = animal.name
     return Mesh(
         id=name,

@@ -49,7 +49,9 @@ def build_animal(animal: Animal, options: MotionOptions, coat: Texture | None = 
         options.seed, options.seconds, speed, follows=animal.kind == "snake",
     )  # fmt: skip
     gaits = [] if wave is None else [waved_gait(_WAVE_NAME[animal.kind], wave, speed)]
-    gaits += [roam, seen_gait("footage", states, times, speed)]
+    gaits += [roam]
+    if motion.provenance in ("measured", "edited"):
+        gaits += [seen_gait("footage", states, times, speed)]
     spine = spine_of(animal)
     clips = tuple(spine_clip(gait, spine, animal.length.metres) for gait in gaits)
     return Built(body_mesh(animal, clips, coat), tuple(gaits), wave, tuple(doubts))

@@ -29,6 +29,8 @@ class BackgroundLooks:
     """And by so many grey levels at least: compression makes noise of its own."""
     stays: float = 4.0
     """Where all its places together are less than so many times its own area, it stays."""
+    whole: float = 0.9
+    """Of all frames so many differ by no more than the animal's area, and its own in the median."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +59,8 @@ def estimated_background(frames: Pixels, looks: BackgroundLooks) -> Background:
     noise = _noise(few, median)
     level = max(looks.noise * noise, looks.least)
     apart = np.stack([most_apart(frame, median) for frame in few])
-    own = float(np.median((apart > level).sum(axis=(1, 2))))
+    # Where the median shows the animal itself, a frame in which it is elsewhere differs at both.
+    own = float(np.quantile((apart > level).sum(axis=(1, 2)), looks.whole))
     place = _largest_filled(apart.max(axis=0) > level)
     if own <= 0.0 or float(place.sum()) > looks.stays * own:
         return Background(median, noise, 0.0, given=False)

@@ -19,11 +19,15 @@ _SHADE = 0.35
 
 @dataclass(frozen=True, eq=False)
 class Tube:
-    """A chain of joints and how thick it is. joints: (t, n, 2) px, y down. half: (n,) px."""
+    """A chain of joints and how thick it is. joints: (t, n, 2) px, y down. half: (n,) px.
+
+    upright: flat from side to side and seen from there; half is how far it reaches up and down.
+    """
 
     joints: Floats
     half: Floats
     light: float = 1.0
+    upright: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +86,19 @@ def film(
 
 def _drawn(tube: Tube, row: int, size: tuple[int, int]) -> NDArray[np.uint8]:
     mask = np.zeros(size, np.uint8)
-    _discs(mask, tube.joints[row], tube.half)
+    draw = _strips if tube.upright else _discs
+    draw(mask, tube.joints[row], tube.half)
     return mask
+
+
+def _strips(mask: NDArray[np.uint8], joints: Floats, half: Floats) -> None:
+    """What lies between the upright lines through each joint and the next one."""
+    up = np.stack([np.zeros_like(half), half], axis=1)
+    above, below = joints - up, joints + up
+    for first in range(len(joints) - 1):
+        corners = np.stack([above[first], above[first + 1], below[first + 1], below[first]])
+        points = np.round((corners - 0.5) * 2**_SHIFT).astype(np.int32)
+        cv2.fillConvexPoly(mask, points, 255, cv2.LINE_8, _SHIFT)
 
 
 def _shaded(whole: NDArray[np.uint8], shadow: Floats) -> NDArray[np.float32]:
