@@ -171,7 +171,7 @@ export class Commands {
       headset: () => void this.#enterHeadset(),
       "seek-walk": (change) => changeStroll(this.#store, change),
       lead: ({ which, goal }) => {
-        viewer.animals.lead(which, goal);
+        if (!viewer.animals.lead(which, goal)) this.#page.say("It finds no way there");
         viewer.invalidate();
       },
       animal: (change) => this.#store.update({ animal: { ...this.#store.value.animal, ...change } }),

@@ -134,14 +134,16 @@ export class Course {
 
   /**
    * Goes on from where it is to a point of the ground, in as wide a turn as its body needs; what has legs
-   * stops and turns on the spot where the point is beside or behind it.
+   * stops and turns on the spot where the point is beside or behind it. `corners` are passed before it.
    */
-  leadTo(target: Vec3): void {
+  leadTo(target: Vec3, corners: readonly Vec3[] = []): void {
     const here = this.at(0);
-    const [dx, dy] = subtract(target, here.point);
+    const way = [...corners, target];
+    const [dx, dy] = subtract(way[0] ?? target, here.point);
     const turn = wrapped(Math.atan2(dy, dx) - yawOf(here.ahead));
     const spot = this.#legs && Math.abs(turn) > SPOT_RAD && Math.hypot(dx, dy) > NEAR_LENGTHS * this.#length_m;
-    const pieces = spot ? this.#byTurning(target) : [this.#byCurve(target)];
+    // What has legs keeps to the straight pieces of a way round something: it turns in their corners.
+    const pieces = spot || (this.#legs && corners.length > 0) ? this.#byTurning(way) : [this.#byCurve(way)];
     this.#pivot = null;
     this.#pieces = pieces;
     this.#arc = nearestArc(this.#piece.curve, here.point, 2.5 * this.#length_m);
@@ -156,25 +158,37 @@ export class Course {
     return found;
   }
 
-  #byCurve(target: Vec3): Piece {
-    const front = this.at(0.5 * this.#length_m);
-    const made = courseTo(front, target, STEP_LENGTHS * this.#length_m, TURN_LENGTHS * this.#length_m);
+  #byCurve(way: readonly Vec3[]): Piece {
+    const made: Vec3[] = [];
+    let front = this.at(0.5 * this.#length_m);
+    for (const target of way) {
+      made.push(...courseTo(front, target, STEP_LENGTHS * this.#length_m, TURN_LENGTHS * this.#length_m));
+      front = { point: target, ahead: headingOf(made.at(-2) ?? front.point, target) };
+    }
     const curve = new Curve([...this.#line(0.5 * this.#length_m), ...this.#grounded(this.#withHead(made))], false);
     return { curve, begin: 0, end: curve.length_m - 0.5 * this.#length_m };
   }
 
-  /** On until it can stand, and from there straight. */
-  #byTurning(target: Vec3): Piece[] {
+  /** On until it can stand, and from there straight from corner to corner. */
+  #byTurning(way: readonly Vec3[]): Piece[] {
     const on = this.#pivot === null ? 0.5 * this.#speed * EASE_S * this.#pace ** 2 : 0;
-    const corner = this.at(on).point;
-    const before = new Curve([...this.#line(on), corner], false);
-    const steps = Math.max(2, Math.ceil(length2(subtract(target, corner)) / (STEP_LENGTHS * this.#length_m)));
-    const made = Array.from({ length: steps + 1 }, (_, i) => add(corner, scale(subtract(target, corner), i / steps)));
-    const after = new Curve([corner, ...this.#grounded(this.#withHead(made)).slice(1)], false);
-    return [
-      { curve: before, begin: 0, end: before.length_m },
-      { curve: after, begin: 0, end: after.length_m - 0.5 * this.#length_m },
-    ];
+    const start = this.at(on).point;
+    const before = new Curve([...this.#line(on), start], false);
+    const pieces: Piece[] = [{ curve: before, begin: 0, end: before.length_m }];
+    let corner = start;
+    for (const [i, target] of way.entries()) {
+      const isLast = i === way.length - 1;
+      const straight = this.#straight(corner, target);
+      const curve = new Curve([corner, ...this.#grounded(isLast ? this.#withHead(straight) : straight).slice(1)], false);
+      pieces.push({ curve, begin: 0, end: curve.length_m - (isLast ? 0.5 * this.#length_m : 0) });
+      corner = curve.at(curve.length_m).point;
+    }
+    return pieces;
+  }
+
+  #straight(from: Vec3, to: Vec3): Vec3[] {
+    const steps = Math.max(2, Math.ceil(length2(subtract(to, from)) / (STEP_LENGTHS * this.#length_m)));
+    return Array.from({ length: steps + 1 }, (_, i) => add(from, scale(subtract(to, from), i / steps)));
   }
 
   /** The middle comes to where one clicked, the head goes on by half the body. */

@@ -6,10 +6,12 @@
 import { type AnimationAction, AnimationMixer, type Bone, LoopOnce, LoopRepeat, Matrix4, Mesh, Quaternion, SkinnedMesh, Vector3 } from "three";
 import type { Animal, AnimalState } from "../core/animal.ts";
 import { Course, type Ground } from "../core/course.ts";
+import { type Free, type Spot, wayRound } from "../core/detour.ts";
 import { readFootings } from "../core/footing.ts";
 import { type Goer, waits } from "../core/giving-way.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { Vec3 } from "../core/vector.ts";
+import type { Obstacles } from "../core/walking.ts";
 import { Footwork } from "./footwork.ts";
 import type { LoadedPart } from "./load.ts";
 import type { PartSlot } from "./part-slot.ts";
@@ -18,6 +20,12 @@ import type { PartSlot } from "./part-slot.ts";
 const MOST_SECONDS = 0.1;
 /** What has legs moves them wholly from this pace on; below, it stands more and more as at rest. */
 const WHOLE_PACE = 0.35;
+
+/** Half of how wide a way is to be, in lengths, the best first: what has no legs swings out in corners. */
+const LEGGED: readonly number[] = [0.16, 0.08];
+const SLENDER: readonly number[] = [0.35, 0.08, 0.04];
+/** How closely it looks for a way. */
+const CELL_LENGTHS = 0.25;
 
 /** A joint against its parent. */
 interface Rest {
@@ -171,13 +179,15 @@ export class Animals {
   readonly #animals: readonly Animal[];
   readonly #parts: readonly PartSlot[];
   readonly #ground: Ground;
+  readonly #obstacles: Obstacles;
   /** By their numbers in the place; null while the model is on its way. */
   readonly #all: (LivingAnimal | null)[];
 
-  constructor(animals: readonly Animal[], parts: readonly PartSlot[], ground: Ground) {
+  constructor(animals: readonly Animal[], parts: readonly PartSlot[], ground: Ground, obstacles: Obstacles) {
     this.#animals = animals;
     this.#parts = parts;
     this.#ground = ground;
+    this.#obstacles = obstacles;
     this.#all = animals.map(() => null);
     for (const [index, { isThere }] of parts.entries()) if (isThere) this.take(index);
   }
@@ -216,9 +226,22 @@ export class Animals {
     return this.#all[which]?.animal.length_m ?? 1;
   }
 
-  /** Sends one to a point of the ground. */
-  lead(which: number, target: Vec3): void {
-    this.#all[which]?.course.leadTo(target);
+  /** Sends one to a point of the ground, round what stands in its way; false where nothing leads there. */
+  lead(which: number, target: Vec3): boolean {
+    const one = this.#all[which];
+    if (one === null || one === undefined) return false;
+    const { animal, course, place } = one;
+    const height = (x: number, y: number): number => this.#ground(x, y) ?? place[2];
+    const cell = CELL_LENGTHS * animal.length_m;
+    let way: Spot[] | null = null;
+    for (const wide of animal.turns === null ? SLENDER : LEGGED) {
+      const isFree = freeFor(animal, wide, height, this.#obstacles);
+      way ??= wayRound([place[0], place[1]], [target[0], target[1]], isFree, cell);
+    }
+    if (way === null) return false;
+    const corners = way.slice(0, -1).map(([x, y]): Vec3 => [x, y, height(x, y)]);
+    course.leadTo(target, corners);
+    return true;
   }
 
   /** True while one moves. */
@@ -231,6 +254,14 @@ export class Animals {
     });
     return moves.includes(true) || (state.playing && this.#living.some(({ course }) => course.pace > 0));
   }
+}
+
+/** Where an animal's body has room, from its knee up; the ground itself is not in its way. */
+function freeFor(animal: Animal, wide: number, height: (x: number, y: number) => number, obstacles: Obstacles): Free {
+  const radius_m = wide * animal.length_m;
+  const knee_m = (animal.turns === null ? 0.05 : 0.2) * animal.length_m;
+  const body = { radius_m, height_m: 2.5 * radius_m, eye_m: 0 };
+  return (x, y) => obstacles.pushOut([x, y, height(x, y) + knee_m], body) === null;
 }
 
 function smooth(share: number): number {

@@ -99,7 +99,7 @@ export class Stage {
     this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown }, content.budget);
     const { solid } = this;
     const groundAt = solid instanceof PlaceSolid ? (x: number, y: number) => solid.groundAt(x, y) : () => null;
-    this.animals = new Animals(place.animals, parts, groundAt);
+    this.animals = new Animals(place.animals, parts, groundAt, solid);
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
     this.household = new Household(houses, () => (this.solid instanceof PlaceSolid ? this.solid.doors : null));

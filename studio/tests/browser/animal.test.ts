@@ -2,6 +2,7 @@
 import type { Page } from "playwright-core";
 import { describe, expect } from "vitest";
 import { ANIMAL, addAnimal } from "../fixture/animal.mjs";
+import { HOUSE } from "../fixture/house.mjs";
 import { MISSING } from "./chromium.ts";
 import { around, look, project, settled } from "./page.ts";
 import { visits } from "./visits.ts";
@@ -47,5 +48,26 @@ describe.skipIf(MISSING !== null)("a place with an animal", () => {
     }, before);
     expect(await redness(page, await stand(page))).toBeGreaterThan(60);
     expect(await redness(page, before)).toBeLessThan(30);
+  });
+
+  it("is led round the house, and not through it", { timeout: 90_000 }, async ({ page }) => {
+    await stand(page);
+    const goal: Point = [HOUSE.width / 2, -2.5, 0];
+    await page.evaluate((at) => window.veduta?.do("lead", { which: 0, goal: at }), goal);
+    await page.getByRole("button", { name: "Let Bar go" }).click();
+    const way: Point[] = [];
+    for (let n = 0; n < 400; n += 1) {
+      const at = await place(page);
+      way.push(at);
+      if (Math.hypot(at[0] - goal[0], at[1] - goal[1]) < 0.1) break;
+      await page.waitForTimeout(150);
+    }
+    const within = way.filter(([x, y]) => x > 0 && x < HOUSE.width && y > 0 && y < HOUSE.depth);
+    expect(within).toEqual([]);
+    const [x, y] = way.at(-1) ?? [0, 0];
+    expect(Math.hypot(x - goal[0], y - goal[1])).toBeLessThan(0.1);
+    // Within the wall nobody stands: it is said, and it stays where it is.
+    await page.evaluate((at) => window.veduta?.do("lead", { which: 0, goal: at }), [0, HOUSE.depth / 2, 0] as Point);
+    await page.getByText("It finds no way there").waitFor();
   });
 });
