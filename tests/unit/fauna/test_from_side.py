@@ -39,9 +39,9 @@ def described(film: Filmed) -> Described:
     return describe_from_side(tracked_axes(footage, seen), areas, "fish", source, OPTIONS)
 
 
-@pytest.mark.parametrize("leftwards", [False, True])
-def test_a_fish_from_the_side(leftwards: bool) -> None:
-    film = film_fish_from_side(61, leftwards=leftwards)
+@pytest.mark.parametrize(("leftwards", "keeled"), [(False, False), (True, True)])
+def test_a_fish_from_the_side(leftwards: bool, keeled: bool) -> None:
+    film = film_fish_from_side(61, leftwards=leftwards, keeled=keeled)
     found = described(film)
     body, motion = found.animal.body, found.animal.motion
     assert (body.heights, body.widths) == ("measured", "invented")

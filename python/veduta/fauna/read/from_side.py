@@ -29,7 +29,7 @@ _SMOOTH = 9
 _FEWEST_BEATS = 2.0
 _CLEAR = 0.3
 """A beat that explains less of what varies is none; noise alone comes to a fifth."""
-_AS_GOOD = 0.95
+_AS_GOOD = 0.93
 """Half of a frequency is taken where it explains so much of what that does."""
 
 

@@ -13,12 +13,19 @@ _FIN = 0.86
 
 
 def film_fish_from_side(
-    seed: int, *, frames: int = 60, odd: bool = False, leftwards: bool = False
+    seed: int,
+    *,
+    frames: int = 60,
+    odd: bool = False,
+    leftwards: bool = False,
+    keeled: bool = False,
 ) -> Filmed:
     """One that goes through a frame of 300 x 640, its lengths and half heights known.
 
     odd: twice as high as the usual. Its course leads up to 12 degrees towards the camera or from
-    it. lengths: "body" as it is, not as it seems; cycle: frames of a swing to both sides.
+    it. keeled: its slices are no ellipses about its spine; the belly reaches three times as far
+    down as the back does up. lengths: "body" as it is, not as it seems; cycle: frames of a swing
+    to both sides.
     """
     random = np.random.default_rng(seed)
     cycle = random.uniform(9.0, 14.0)
@@ -41,7 +48,8 @@ def film_fish_from_side(
     x = 320.0 - seen + 4.4 * (time - 0.5 * frames)
     y = 150.0 + 6.0 * np.sin(2.0 * np.pi * time / 80.0) + 0.0 * x
     chain = np.stack([640.0 - x if leftwards else x, y], axis=2)
-    pictures, behind, masks = film([Tube(chain, half, upright=True)], (300, 640), random)
+    shown = chain + np.stack([np.zeros(_POINTS), 0.5 * half if keeled else 0.0 * half], axis=1)
+    pictures, behind, masks = film([Tube(shown, half, upright=True)], (300, 640), random)
     return Filmed(
         pictures, behind, masks,
         {"axis": chain.reshape(frames, -1), "head": chain[:, 0], "tail": chain[:, -1]},
