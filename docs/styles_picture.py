@@ -110,7 +110,7 @@ def _ground() -> list[Part]:
     for name, (start, south, north, z) in pieces.items():
         lot = _rectangle(-REACH_M, south, REACH_M, north, z)
         columns = derive(rules, [lot], start=start).columns()
-        parts.append(build_part(columns, name, {}, rules.textures))
+        parts.append(build_part(columns, name, (), rules.textures))
     return parts
 
 

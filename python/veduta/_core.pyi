@@ -412,6 +412,9 @@ class DerivedLot:
     @property
     def asset_names(self) -> list[str]: ...
     @property
+    def asset_views(self) -> list[tuple[bool, bool]]:
+        """Of each asset, whether it is its own mirror image, and whether it is inside out."""
+    @property
     def log_prior(self) -> float: ...
     @property
     def messages(self) -> list[str]: ...

@@ -248,3 +248,15 @@ fn arrays_of_another_kind() {
         ]
     );
 }
+
+#[test]
+fn empty_arrays_keep_their_kind() {
+    let found = said(
+        "const not = !boolArray()\nconst joined = stringArray() .+ \"a\"\n\
+         const turned = transpose(stringArray())\nconst less = floatArray() .< 2\n\
+         const missing = isnan(floatArray())\nconst sums = floatArray() .+ 1\n\
+         Lot --> print(not[0]) print(\"<\" + joined[0] + \">\") print(\"<\" + turned[0] + \">\")\n\
+         print(less[0]) print(missing[0]) print(sums[0])",
+    );
+    assert_eq!(found, ["false", "<>", "<>", "false", "false", "0"]);
+}

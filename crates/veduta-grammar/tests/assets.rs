@@ -21,10 +21,33 @@ fn mesh() -> Mesh {
     cube().mapped(|unit| LOW + unit * SIZE)
 }
 
+/// A closed shape in the same box that no turn makes its own mirror image: a corner of the box.
+fn hand() -> Mesh {
+    let at = |x: f64, y: f64, z: f64| LOW + DVec3::new(x, y, z) * SIZE;
+    let [origin, x, y, z] = [
+        at(0.0, 0.0, 0.0),
+        at(1.0, 0.2, 0.0),
+        at(0.3, 1.0, 0.0),
+        at(0.0, 0.0, 1.0),
+    ];
+    let mut mesh = Mesh::with_points(vec![origin, x, y, z]);
+    for face in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] {
+        mesh.push_face(&[face]);
+    }
+    mesh
+}
+
 fn options() -> Options {
-    let asset = Asset::new("box".into(), mesh(), (LOW, LOW + SIZE)).unwrap();
+    let made = |name: &str, mesh: Mesh| {
+        let asset = Asset::new(name.into(), mesh, (LOW, LOW + SIZE)).unwrap();
+        (asset.name.clone(), Arc::new(asset))
+    };
     Options {
-        assets: Arc::new(HashMap::from([("box".into(), Arc::new(asset))])),
+        assets: Arc::new(HashMap::from([
+            made("box", mesh()),
+            made("builtin/box", mesh()),
+            made("hand", hand()),
+        ])),
         ..Options::default()
     }
 }
@@ -59,9 +82,12 @@ fn an_asset_fills_the_scope() {
 
 #[test]
 fn an_asset_keeps_its_proportion_where_the_scope_is_flat() {
-    // Stretched by 2 along x and by 3 along y, so by 2.5 along z, where it began at -0.25.
+    // Stretched by 2 along x and by 3 along y, so by 2.5 along z; a flat scope stays where it is.
     let flat = scope("s(4, 3, 0) i(\"box\")");
-    assert_eq!(flat, ([0.0, 0.0, -0.625], [4.0, 3.0, 1.25]));
+    assert_eq!(flat, ([0.0; 3], [4.0, 3.0, 1.25]));
+    // One that Veduta brings along has its plane z = 0 in the wall: it began at -0.25.
+    let own = scope("s(4, 3, 0) i(\"builtin/box\")");
+    assert_eq!(own, ([0.0, 0.0, -0.625], [4.0, 3.0, 1.25]));
     // By 4 along y alone.
     let line = scope("s(0, 4, 0) i(\"box\")");
     assert_eq!(line, ([-4.0, 0.0, -1.0], [8.0, 4.0, 2.0]));
@@ -162,6 +188,80 @@ fn transforms_put_assets_where_their_faces_are() {
             );
         }
     }
+}
+
+/// The places of the first asset's faces where its first instance stands, and its volume there (m3).
+fn standing(found: &Packed) -> (Vec<[f64; 3]>, f64) {
+    let faces = found.assets[0].faces();
+    let row = found.instance_transform[0];
+    let at = |point: &[f64; 3]| {
+        [0, 1, 2].map(|k| (0..3).map(|j| row[4 * k + j] * point[j]).sum::<f64>() + row[4 * k + 3])
+    };
+    let places: Vec<[f64; 3]> = faces.positions.iter().map(at).collect();
+    let rings = faces.ring_offsets.windows(2);
+    let volume = rings.map(|ends| {
+        let ring = &places[ends[0] as usize..ends[1] as usize];
+        let [a, b, c] = [0, 1, 2].map(|k| DVec3::from_array(ring[k]));
+        a.dot(b.cross(c)) / 6.0
+    });
+    let volume = volume.sum();
+    (places, volume)
+}
+
+/// Mirrored and turned inside out an asset stays an asset: its faces are where the shape's own are, they
+/// look the same way, and its place is a turn with stretches.
+#[test]
+fn mirrored_assets_stay_assets() {
+    for (number, operations) in [
+        "mirror(true, false, false)",
+        "mirror(false, true, false)",
+        "mirror(false, true, true)",
+        "mirror(true, true, true)",
+        "reverseNormals()",
+        "s(-2, '1, '1)",
+        "s('1, -1, -3)",
+        "s(-1, -2, -3) mirror(true, false, false) r(10, 20, 30)",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let up = if number % 2 == 0 { "yUp" } else { "zUp" };
+        let text = format!("Lot --> s(3, 2, 0.7) t(5, 1, -2) i(\"hand\", {up}) {operations}");
+        let tree = derived(&text, turned(0.3 * number as f64)).unwrap();
+        let wanted = tree.leaves().next().unwrap().state.form.world_mesh();
+        let found = packed(&tree);
+        assert!(found.positions.is_empty(), "{operations}");
+        let (places, volume) = standing(&found);
+        let near = |a: &[f64; 3], b: &[f64; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-9);
+        for point in &wanted.points {
+            let truth = to_place(*point);
+            assert!(
+                places.iter().any(|place| near(place, &truth)),
+                "{operations}: {truth:?}"
+            );
+        }
+        assert!(
+            (volume - wanted.volume()).abs() < 1e-9,
+            "{operations}: {volume}"
+        );
+        let row = found.instance_transform[0];
+        let column = |j: usize| DVec3::new(row[j], row[4 + j], row[8 + j]);
+        assert!(
+            column(0).cross(column(1)).dot(column(2)) > 0.0,
+            "{operations}"
+        );
+    }
+}
+
+#[test]
+fn a_mirrored_asset_is_written_once_for_all_shapes() {
+    let both = "Lot --> [ i(\"hand\") A ] [ i(\"hand\") mirror(true, false, false) A ] \
+                [ i(\"hand\") mirror(false, true, false) A ] NIL";
+    let found = packed(&tree(both));
+    assert_eq!(found.instance_asset, [0, 1, 1]);
+    let again = packed(&tree(both));
+    assert_eq!(found.assets[1].view(), again.assets[1].view());
+    assert!(found.assets[1].view().mirrored && !found.assets[1].view().inside_out);
 }
 
 /// A lot that does not lie along the axes of the world.

@@ -115,3 +115,90 @@ fn edges_hang_together_by_their_ends() {
     let values = "Lot --> extrude(4) print(str(comp(f) { horizontal =: geometry.area | all =: comp.total }))";
     assert_eq!(said(values), ["[60,60,1,1,1,1]"]);
 }
+
+#[test]
+fn edges_of_faces_look_away_from_the_face_and_have_its_normal_for_y() {
+    // The front of a lot that lies: y up, z to the front.
+    let directions = "print(convert(scope, world, orient, [0, 0, 0])) NIL }";
+    assert_eq!(
+        said(&format!("Lot --> comp(fe) {{ front : {directions}")),
+        ["(3)[0,0,0]"]
+    );
+    assert_eq!(
+        said("Lot --> comp(fe) { front : t(0, 2, 0) print(scope.elevation) NIL }"),
+        ["2"]
+    );
+}
+
+#[test]
+fn edges_between_faces_have_the_mean_of_their_normals_for_z_and_run_upwards() {
+    // The edge at the front of the roof of a box looks up and out at 45 degrees.
+    let told = "t(0, 0, sqrt(2)) print(rint(1e6 * scope.elevation) / 1e6) NIL }";
+    assert_eq!(
+        said(&format!(
+            "Lot --> extrude(3) comp(e) {{ top && front : {told}"
+        ))
+        .len(),
+        0
+    );
+    let found = said(&format!("Lot --> extrude(3) comp(e) {{ top : {told}"));
+    assert_eq!(found, ["4"; 4]);
+    // Upright edges begin at the ground.
+    let upright = said("Lot --> extrude(3) comp(e) { vertical : print(scope.elevation) NIL }");
+    assert_eq!(upright, ["0"; 4]);
+}
+
+#[test]
+fn vertices_look_along_the_mean_of_their_faces() {
+    assert_eq!(
+        said("Lot --> comp(v) { top : t(0, 0, 1) print(scope.elevation) NIL }"),
+        ["1"; 4]
+    );
+    // A corner of a box looks along its diagonal.
+    let corner = "print(rint(1e6 * scope.elevation) / 1e6) NIL }";
+    let found = said(&format!(
+        "Lot --> extrude(3) comp(v) {{ all : t(0, 0, sqrt(3)) {corner}"
+    ));
+    let mut sorted = found.clone();
+    sorted.sort();
+    assert_eq!(sorted, ["-1", "-1", "-1", "-1", "4", "4", "4", "4"]);
+}
+
+#[test]
+fn corners_of_faces_are_counted_face_by_face() {
+    let counted = "print(comp.total) NIL }";
+    assert_eq!(
+        said(&format!("Lot --> extrude(3) comp(v) {{ all : {counted}")),
+        vec!["8"; 8]
+    );
+    assert_eq!(
+        said(&format!("Lot --> extrude(3) comp(fv) {{ all : {counted}")),
+        vec!["24"; 24]
+    );
+    assert_eq!(
+        said(&format!("Lot --> extrude(3) comp(fv) {{ top : {counted}")),
+        ["4"; 4]
+    );
+    assert_eq!(
+        said(&format!("Lot --> comp(fv) {{ border : {counted}")),
+        ["4"; 4]
+    );
+}
+
+#[test]
+fn corners_that_two_parts_move_go_by_the_sum() {
+    // The front goes 1 m out, the right side too: (0, 7), (11, 7), (11, 0), (0, 0).
+    let both = "modify(fe) { front : t(0, 0, 1) X. | right : t(0, 0, 1) X. }";
+    assert_eq!(
+        said(&format!("Lot --> {both} print(geometry.area)")),
+        ["77"]
+    );
+    let corners = "modify(fv) { all : t(0, 0, 1) X. }";
+    assert_eq!(
+        said(&format!("Lot --> {corners} print(scope.elevation)")),
+        ["1"]
+    );
+    // One face lies over the other's corner: the shared corners go up twice.
+    let halves = "inline(recompose) split(x) { ~1 : A. | ~1 : A. } modify(f, noAlign) { all : t(0, 1, 0) X. }";
+    assert_eq!(said(&format!("Lot --> {halves} print(scope.sy)")), ["1"]);
+}

@@ -126,7 +126,7 @@ fn turns_are_told_as_they_were_made() {
     let to_world =
         ["x", "y", "z"].map(|axis| format!("convert({axis}, scope, world, orient, 0, 0, 0)"));
     let to_world = [&to_world[0], &to_world[1], &to_world[2]].map(String::as_str);
-    let turned = "r(0, -46.5, 0) r(-10, 70, 0)";
+    let turned = "r(0, -46.5, 0) setPivot(xyz, 0) r(-10, 70, 0)";
     assert_eq!(said(turned, to_world), ["-10", "23.5", "0"]);
     let own = ["scope.rx", "scope.ry", "scope.rz"];
     assert_eq!(said("r(10, 20, 30)", own), ["10", "20", "30"]);

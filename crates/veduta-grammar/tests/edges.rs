@@ -57,7 +57,7 @@ fn parts_of_walls_stand_for_the_edge_that_they_cover_most() {
     let name = format!("{EDGES}n");
     let strips = "split(x) { 5 : P | 1.5 : P | 1.5 : P | ~1 : P }";
     let text = format!(
-        "Lot --> s(10, 0, 6) t(0, 4, 0) primitiveCube(10, 1, 6) comp(f) {{ world.south : W \
+        "Lot --> s(10, 0, 6) t(0, 4, 0) s(10, 1, 6) primitiveCube() comp(f) {{ world.south : W \
          | all : NIL }} W --> {strips} P --> print(edgeAttr.getFloat(\"n\"))"
     );
     assert_eq!(said(&text, lot, &[(&name, width)]), ["1", "1", "2", "2"]);

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 /// The lot is 10 m by 6 m; a cube of so many metres at a place.
 fn cube(x: f64, y: f64, z: f64, size: f64) -> String {
-    format!("{{ t({x}, {y}, {z}) primitiveCube({size}, {size}, {size}) }}")
+    format!("{{ t({x}, {y}, {z}) s({size}, {size}, {size}) primitiveCube() }}")
 }
 
 fn volume(operations: &str) -> f64 {
@@ -24,7 +24,7 @@ fn booleans_with_a_cube_in_the_corner() {
         assert!((found - truth).abs() < 1e-9, "{operation}: {found}");
     }
     let swapped = volume(&format!("extrude(3) subtract(swap) {cube}"));
-    let both = volume("subtract { extrude(3) | t(9, 2, 5) primitiveCube(2, 2, 2) }");
+    let both = volume("subtract { extrude(3) | t(9, 2, 5) s(2, 2, 2) primitiveCube() }");
     assert!((both - 179.0).abs() < 1e-9, "{both}");
     assert!((swapped - 7.0).abs() < 1e-9, "{swapped}");
 }
@@ -102,7 +102,7 @@ proptest! {
     #[test]
     fn volumes_add_up(n in prop::array::uniform4(-2.0..8.0f64), height in 0.5..6.0f64, size in 0.5..6.0f64, turn in 0.0..90.0f64) {
         let other = format!(
-            "{{ t({}, {}, {}) r({turn}, {}, 10) primitiveCube({size}, {size}, {size}) }}",
+            "{{ t({}, {}, {}) r({turn}, {}, 10) s({size}, {size}, {size}) primitiveCube() }}",
             n[0], n[1] - 2.0, n[2], 3.0 * n[3]
         );
         let all = ["union", "subtract", "intersect"].map(|o| volume(&format!("extrude({height}) {o} {other}")));

@@ -36,6 +36,7 @@ mod occlusion;
 mod older_forms;
 mod packing;
 mod perimeter;
+mod pivots;
 mod random_programs;
 mod rederivation;
 mod reference;

@@ -42,8 +42,8 @@ fn a_shape_is_no_obstacle_to_itself_its_parents_and_its_children() {
 
 #[test]
 fn volumes_within_and_across() {
-    let text = "Lot --> [ t(1, 1, 1) primitiveCube(2, 2, 2) Q ] [ extrude(4) Hull. ] \
-                [ t(9, 3, 5) primitiveCube(2, 2, 2) Q ] [ t(0, 4, 0) primitiveCube(1, 1, 1) Q ] NIL \
+    let text = "Lot --> [ t(1, 1, 1) s(2, 2, 2) primitiveCube() Q ] [ extrude(4) Hull. ] \
+                [ t(9, 3, 5) s(2, 2, 2) primitiveCube() Q ] [ t(0, 4, 0) s(1, 1, 1) primitiveCube() Q ] NIL \
                 Q --> print(\"\" + inside() + overlaps() + touches())";
     let found = said(text);
     assert_eq!(found, ["truetruetrue", "falsetruetrue", "falsefalsetrue"]);
@@ -208,7 +208,7 @@ proptest! {
         order.rotate_left(turn % starts.len());
         let cells: String = order
             .iter()
-            .map(|&k| format!("[ t({}, 0, 0) primitiveCube({}, 1, 1) B({k}) ] ", starts[k].0, starts[k].1))
+            .map(|&k| format!("[ t({}, 0, 0) s({}, 1, 1) primitiveCube() B({k}) ] ", starts[k].0, starts[k].1))
             .collect();
         let text = format!("Lot --> {cells} NIL B(k) --> print(str(k) + overlaps() + touches())");
         let mut found = said(&text);

@@ -51,8 +51,11 @@ fn older_operations_do_what_newer_ones_do() {
     );
     let moved = "setupProjection(0, scope.xz, 2, 2, 1) projectUV(0) print(geometry.uMin(0))";
     assert_eq!(said(&format!("Lot --> {moved}")), ["-0.5"]);
-    let longest = "alignScopeToGeometry(yUp, 0) print(scope.sx)";
-    assert_eq!(said(&format!("Lot --> s(4, '1, '1) {longest}")), ["6"]);
+    // The lot of 4 m x 6 m begins with an edge along x.
+    for (edge, along) in [(0, "4"), (1, "6"), (-1, "6")] {
+        let align = format!("alignScopeToGeometry(yUp, {edge}) print(scope.sx)");
+        assert_eq!(said(&format!("Lot --> s(4, '1, '1) {align}")), [along]);
+    }
 }
 
 #[test]

@@ -31,7 +31,7 @@ fn footprints() {
         ["60", "1", "0", "2"]
     );
     // A block over a corner of the lot, 6 m by 4 m, of which 2 m by 2 m are above it.
-    let two = "inline { [ extrude(3) A. ] t(8, 5, 4) primitiveCube(6, 1, 4) }";
+    let two = "inline { [ extrude(3) A. ] t(8, 5, 4) s(6, 1, 4) primitiveCube() }";
     assert_eq!(
         print(&format!("{two} footprint()"), &values),
         ["80", "1", "0", "0"]
@@ -103,7 +103,7 @@ fn modified_parts_take_the_rest_along() {
     ];
     assert_eq!(print(taper, &values), ["105", "true", "6"]);
     // Only the scope moves: 1 m up with all corners.
-    let lifted = "extrude(3) modify(v) { all : t(0, 1, 0) }";
+    let lifted = "extrude(3) modify(v, noAlign) { all : t(0, 1, 0) }";
     assert_eq!(
         print(lifted, &["geometry.volume", "scope.ty"]),
         ["180", "1"]
@@ -118,7 +118,7 @@ fn modified_parts_take_the_rest_along() {
     );
     let grown = "extrude(3) modify(f) { top : extrude(2) }";
     assert_eq!(print(grown, &["geometry.nFaces", "scope.sy"]), ["11", "5"]);
-    let bent = "extrude(3) modify(v) { 0 : t(0, -1, 0) }";
+    let bent = "extrude(3) modify(v, noAlign) { 0 : t(0, -1, 0) }";
     assert_eq!(print(bent, &["geometry.isClosedSurface"]), ["true"]);
 }
 
@@ -252,7 +252,7 @@ proptest! {
     #[test]
     fn cleaning_keeps_the_volume(n in prop::array::uniform6(1u8..12)) {
         let [x, y, z, a, b, c] = n.map(|v| f64::from(v) * 0.5);
-        let union = format!("extrude(3) union {{ t({x}, {y}, {z}) primitiveCube({a}, {b}, {c}) }}");
+        let union = format!("extrude(3) union {{ t({x}, {y}, {z}) s({a}, {b}, {c}) primitiveCube() }}");
         let before = print(&union, &["geometry.volume"]);
         let after = print(&format!("{union} cleanupGeometry(all, 0)"), &["geometry.volume", "geometry.isClosedSurface"]);
         let [before, after_volume] = [&before[0], &after[0]].map(|text| text.parse::<f64>().unwrap());

@@ -4,7 +4,7 @@
 
 use crate::support;
 
-use crate::support::{areas, derived, fault, lot_of, solid, tree};
+use crate::support::{areas, derived, fault, lot_of, said, solid, tree};
 use proptest::prelude::*;
 
 fn volume(text: &str) -> f64 {
@@ -179,6 +179,13 @@ fn a_mansard_of_two_slopes() {
 }
 
 #[test]
+fn edges_without_numbers_of_their_own_are_walls() {
+    // The front leans from 3 m on, by 3 m up to the top: 10 m by 36 m2 less 4.5 m2.
+    let found = said("Lot --> envelope(normal, 6, [3], [45]) print(geometry.volume)");
+    assert_eq!(found, ["315"]);
+}
+
+#[test]
 fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> roofShed(0)").contains("a slope"));
     assert!(fault("Lot --> roofHip(45, -1)").contains("from 0 on"));
@@ -194,7 +201,6 @@ fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> roofMansard(70, 95, 2)").contains("a slope"));
     assert!(fault("Lot --> roofPyramid(\"steep\", 1)").contains("byAngle"));
     assert!(fault("Lot --> envelope(normal, 1, 1, 0)").contains("a slope"));
-    assert!(fault("Lot --> envelope(normal, 1, [1], [1])").contains("1 numbers for 4"));
     let wall = "Lot --> extrude(1) comp(f) { front : envelope(world.up, 1, 0, 9) | all : NIL }";
     assert!(fault(wall).contains("not level"));
 }

@@ -213,9 +213,10 @@ fn texture_coordinates() {
             "scaleUV(0, 4, 2) t(1, 2, 3) r(10, 20, 30) s(7, 8, 0)",
             ["0", "4", "0", "2"],
         ),
+        // What is prepared stays where it was.
         (
             "setupProjection(0, scope.xy, 2, 1) t(7, 7, 7) projectUV(0)",
-            ["0", "5", "0", "3"],
+            ["3.5", "8.5", "7", "10"],
         ),
         (
             "scaleUV(0, 4, 2) mirror(true, false, false)",

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-use crate::support::{areas, derived, fault, lot_of, mesh_of, tree};
+use crate::support::{areas, derived, fault, lot_of, mesh_of, said, tree};
 use proptest::prelude::*;
 
 #[test]
@@ -232,10 +232,55 @@ fn conditions_choose() {
 }
 
 #[test]
+fn edges_without_a_distance_of_their_own_stand() {
+    let areas = "{ all = print(geometry.area) NIL | remainder : print(geometry.area) NIL }";
+    let found = |distances: &str| said(&format!("Lot --> setback({distances}) {areas}"));
+    // The first edge is 10 m long; a fifth distance is that of no edge.
+    assert_eq!(found("[1]"), ["10", "50"]);
+    assert_eq!(found("[1, 0, 0, 0, 7]"), ["10", "50"]);
+    let missing = found("[1, ln(-1)]");
+    assert!(
+        missing[0].contains("0 stands for a value that is NaN"),
+        "{missing:?}"
+    );
+    assert_eq!(missing[1..], ["10", "50"]);
+}
+
+#[test]
+fn edges_are_selected_by_the_texture() {
+    // u along x and v along z, to the front; layer 1 has u along z.
+    let texture =
+        "setupProjection(0, scope.xz, 1, 1) projectUV(0) setupProjection(1, scope.zx, 1, 1) \
+                   projectUV(1)";
+    let strip = |operation: &str, selector: &str| {
+        let cells = format!("{{ {selector} = print(geometry.area) NIL }}");
+        said(&format!("Lot --> {texture} {operation} {cells}"))
+    };
+    for (operation, selector, area) in [
+        ("setback(1)", "uv.right", "6"),
+        ("setback(1)", "uv.top", "10"),
+        ("setback(1, 1)", "uv.right", "10"),
+        ("setback(1, 1)", "uv.bottom", "6"),
+        ("setbackPerEdge(1, 1)", "uv.top", "6"),
+        ("setbackToArea(50)", "uv.bottom", "10"),
+        ("setbackToArea(48, 1)", "uv.top", "12"),
+        ("setbackToArea(48, [0, 0, 0, 0], 1)", "uv.top", "12"),
+    ] {
+        assert_eq!(strip(operation, selector), [area], "{operation} {selector}");
+    }
+    let sides = "comp(fe) { uv.side : print(scope.sx) NIL | all : NIL }";
+    assert_eq!(said(&format!("Lot --> {texture} {sides}")), ["6", "6"]);
+    // Faces look to no side of what lies on them.
+    assert!(said(&format!(
+        "Lot --> {texture} comp(f) {{ uv.top : print(1) NIL }}"
+    ))
+    .is_empty());
+}
+
+#[test]
 fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> setback(-1) { all : A. }").contains("from 0 on"));
-    assert!(fault("Lot --> setback([1, 2]) { all : A. }").contains("2 numbers for 4 edges"));
-    assert!(fault("Lot --> comp(f) { uv.left : A. }").contains("selects no component"));
+    assert!(fault("Lot --> comp(f) { uv.uMin : A. }").contains("selects no component"));
     assert!(fault("Lot --> primitiveCube(1e300, 1, 1) s(1e9, 1e9, 1e15)").contains("beyond"));
 }
 

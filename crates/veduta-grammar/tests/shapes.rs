@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
+use crate::support::said;
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use veduta_geometry::solid::{extrude, Mesh};
@@ -246,4 +247,47 @@ fn edges_and_corners() {
     let sum: f64 = edges.iter().map(|edge| edge.form.scope.size.x).sum();
     assert_eq!((edges.len(), sum), (12, 36.0));
     assert_eq!(components(&form, Kind::Vertices).len(), 8);
+}
+
+#[test]
+fn primitives_fill_the_scope_as_assets_do() {
+    let sizes = "print(scope.sx) print(scope.sy) print(scope.sz)";
+    // A lot of 10 m by 6 m: the height is the mean of the two.
+    assert_eq!(
+        said(&format!("Lot --> primitiveCube() {sizes}")),
+        ["10", "8", "6"]
+    );
+    assert_eq!(
+        said(&format!("Lot --> s(0, 0, 0) primitiveCube() {sizes}")),
+        ["1", "1", "1"]
+    );
+    // Of a size of its own it stands in the middle of the floor.
+    let places = "print(scope.tx) print(scope.ty) print(scope.tz)";
+    assert_eq!(
+        said(&format!("Lot --> primitiveCube(1, 2, 3) {places}")),
+        ["4.5", "0", "1.5"]
+    );
+    assert_eq!(
+        said(&format!("Lot --> primitiveQuad(4, 2) {places}")),
+        ["3", "0", "2"]
+    );
+}
+
+#[test]
+fn flat_primitives_lie_in_the_plane_of_a_flat_scope() {
+    let of_front = |operation: &str, asked: &str| {
+        said(&format!(
+            "Lot --> extrude(3) comp(f) {{ front : {operation} {asked} NIL }}"
+        ))
+    };
+    let told = "print(geometry.area) print(scope.sx) print(scope.sy) print(scope.sz)";
+    assert_eq!(of_front("primitiveQuad()", told), ["30", "10", "3", "0"]);
+    assert_eq!(of_front("primitiveQuad(4, 1)", told), ["4", "4", "1", "0"]);
+    assert_eq!(of_front("primitiveDisk(4)", &told[21..]), ["10", "3", "0"]);
+    assert_eq!(
+        of_front("primitiveDisk(4)", "print(geometry.isOriented(front))"),
+        ["true"]
+    );
+    let middle = "print(rint(1e6 * scope.sx) / 1e6) print(scope.sz) print(rint(1e6 * scope.elevation) / 1e6)";
+    assert_eq!(of_front("primitiveDisk(4, 1)", middle), ["2", "0", "0.5"]);
 }

@@ -40,7 +40,7 @@ fn faces_are_tagged_by_what_made_them() {
 
 #[test]
 fn another_geometry_has_no_tags_of_the_one_before() {
-    let union = "union { t(2, 1, 1) primitiveCube(2, 2, 2) }";
+    let union = "union { t(2, 1, 1) s(2, 2, 2) primitiveCube() }";
     let top = "comp(f) { isTagged(\"extrude.top\") : Top | all : NIL } Top --> tag(\"own\")";
     for replaced in [
         "primitiveCube()",
@@ -72,7 +72,7 @@ fn another_geometry_has_no_tags_of_the_one_before() {
 #[test]
 fn booleans_tag_what_is_left_of_both() {
     // A cube of 2 m of which 1 m lies in a corner of the block of 10 x 3 x 6 m.
-    let cube = "{ t(9, 2, 5) primitiveCube(2, 2, 2) tag(\"cube\") }";
+    let cube = "{ t(9, 2, 5) s(2, 2, 2) primitiveCube() tag(\"cube\") }";
     for (operation, a, b) in [
         ("union", 216.0 - 3.0, 24.0 - 3.0),
         ("subtract", 216.0 - 3.0, 3.0),

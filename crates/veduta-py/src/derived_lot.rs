@@ -93,6 +93,8 @@ pub struct DerivedLot {
     instance_asset: Py<PyArray1<i32>>,
     instance_transform: Py<PyArray2<f64>>,
     asset_names: Vec<String>,
+    /// Of each asset, whether it is its own mirror image, and whether it is inside out.
+    asset_views: Vec<(bool, bool)>,
     log_prior: f64,
     messages: Vec<String>,
     /// Path and fault of each edit that could not be done.
@@ -139,6 +141,7 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, Der
     let of_instance = |column: &[u32]| of(&packed.instance_feature, column);
     let assets: Vec<i32> = packed.instance_asset.iter().map(|&a| a as i32).collect();
     let name = |asset: &Arc<Asset>| asset.name.to_string();
+    let view = |asset: &Arc<Asset>| (asset.view().mirrored, asset.view().inside_out);
     let looks = packed.looks.iter().map(|look| {
         let [r, g, b] = look.colour;
         let texture = look.texture.as_ref().map(ToString::to_string);
@@ -164,6 +167,7 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, Der
         instance_asset: assets.into_pyarray(py).unbind(),
         instance_transform: rows(&packed.instance_transform).into_pyarray(py).unbind(),
         asset_names: packed.assets.iter().map(name).collect(),
+        asset_views: packed.assets.iter().map(view).collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,
         edit_faults: derived.edit_faults,

@@ -303,7 +303,7 @@ _BODY = """
 
 // The lot's first edge lies along the street.
 @StartRule
-Lot --> t(0, 0, scope.sz - depth) primitiveQuad(width, depth) Building
+Lot --> t(0, 0, scope.sz - depth) s(width, 0, depth) primitiveQuad() Building
 
 Building --> {inside}
 

@@ -6,7 +6,7 @@ brings along.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from posixpath import dirname, join, normpath
@@ -39,7 +39,7 @@ def with_imports(name: str, text: str) -> list[tuple[str, str]]:
 
 def derive_text(
     name: str, text: str, lot: Sequence[Point]
-) -> tuple[_core.DerivedLot, Mapping[str, Asset]] | str:
+) -> tuple[_core.DerivedLot, Sequence[Asset]] | str:
     """What rules make of a lot (corners, m) with seed 0, and the assets in it; or their fault."""
     rules, library = _core.GrammarRules(with_imports(name, text)), _library()
     rules.add_textures(sizes_m())
@@ -51,9 +51,9 @@ def derive_text(
     return derived, library.assets_of(derived)
 
 
-def brought_textures(assets: Mapping[str, Asset]) -> dict[str, Texture]:
+def brought_textures(assets: Sequence[Asset]) -> dict[str, Texture]:
     """The textures that assets have, by the names that rules have for them."""
-    named = {slot.texture for asset in assets.values() for slot in asset.slots}
+    named = {slot.texture for asset in assets for slot in asset.slots}
     known = Textures({})
     return {f"{PREFIX}{name}": known[f"{PREFIX}{name}"] for name in sorted(filter(None, named))}
 

@@ -9,7 +9,7 @@ feature (a window with its frames and panes).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePath
 from types import MappingProxyType
@@ -56,7 +56,7 @@ class Building:
 def build_part(
     derived: _core.DerivedLot,
     part_id: str,
-    assets: Mapping[str, Asset] = MappingProxyType({}),
+    assets: Sequence[Asset] = (),
     textures: Mapping[str, Texture] = MappingProxyType({}),
 ) -> Part:
     """The part of `build`; NothingBuiltError where there is no surface."""
@@ -66,7 +66,7 @@ def build_part(
 def build(
     derived: _core.DerivedLot,
     part_id: str,
-    assets: Mapping[str, Asset] = MappingProxyType({}),
+    assets: Sequence[Asset] = (),
     textures: Mapping[str, Texture] = MappingProxyType({}),
 ) -> Building:
     """The part, about the lot's anchor; NothingBuiltError where there is no surface.
@@ -97,7 +97,7 @@ def _part(
     derived: _core.DerivedLot,
     part_id: str,
     kept: NDArray[np.bool_],
-    assets: Mapping[str, Asset],
+    assets: Sequence[Asset],
     textures: Mapping[str, Texture],
     notes: tuple[str, ...],
 ) -> Part:

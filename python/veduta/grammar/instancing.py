@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,31 +20,31 @@ WHITE: Colour = (1.0, 1.0, 1.0)
 def instances_of(
     derived: _core.DerivedLot,
     used: NDArray[np.int32],
-    assets: Mapping[str, Asset],
+    assets: Sequence[Asset],
     number_of: dict[Material, int],
     textures: Mapping[str, Texture],
 ) -> Instances | None:
     """The instances; None without any.
 
-    used: (f,) the surfaces that are rows of the feature table, in order. number_of: the part's
+    used: (f,) the surfaces that are rows of the feature table, in order. assets: as the columns
+    count them. number_of: the part's
     materials with their numbers; those of the assets are added. textures: by the names of rule
     files; a built-in one that is not among them is left out.
     """
     if len(derived.instance_feature) == 0:
         return None
-    meshes = [assets[name] for name in derived.asset_names]
     looks = np.stack([derived.instance_asset, derived.instance_look], axis=1)
     pairs, pair_of = np.unique(looks, axis=0, return_inverse=True)
     groups: dict[tuple[int, tuple[int, ...]], list[NDArray[np.intp]]] = {}
     for number, (mesh, look) in enumerate(pairs.tolist()):
         colour = derived.looks[look][:3]
-        materials = [_material(slot, colour, textures) for slot in meshes[mesh].slots]
+        materials = [_material(slot, colour, textures) for slot in assets[mesh].slots]
         rows = tuple(number_of.setdefault(found, len(number_of)) for found in materials)
         groups.setdefault((mesh, rows), []).append(np.flatnonzero(pair_of.reshape(-1) == number))
     feature = np.searchsorted(used, derived.instance_feature).astype(np.int32)
     places = derived.instance_transform.reshape(-1, 3, 4)
     return Instances(
-        meshes=tuple(asset.shared_mesh for asset in meshes),
+        meshes=tuple(asset.shared_mesh for asset in assets),
         groups=tuple(
             InstanceGroup(mesh, rows, places[own], feature[own])
             for (mesh, rows), own in (

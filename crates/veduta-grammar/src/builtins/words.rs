@@ -5,7 +5,7 @@ use super::Words;
 pub const AXES: Words = &["x", "y", "z"];
 pub const AXIS_SETS: Words = &["x", "y", "z", "xy", "xz", "yz", "xyz"];
 pub const ADJUST: Words = &["adjust", "noAdjust"];
-pub const COMPONENTS: Words = &["f", "e", "fe", "v", "g", "m", "h"];
+pub const COMPONENTS: Words = &["f", "e", "fe", "v", "fv", "g", "m", "h"];
 pub const KINDS: Words = &["all", "faces", "edges", "vertices", "auto"];
 pub const SPACES: Words = &["scope", "pivot", "object", "world"];
 pub const ROOF_VALUES: Words = &["byAngle", "byHeight"];

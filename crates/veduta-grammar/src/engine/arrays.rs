@@ -121,6 +121,6 @@ fn transpose(args: &[Value]) -> Result<Value, String> {
             values.push(given.values[row * columns + column].clone());
         }
     }
-    let turned = Array::new(rows, values);
+    let turned = Array::new(rows, values).or(given.kind);
     Ok(Value::Array(Arc::new(turned)))
 }

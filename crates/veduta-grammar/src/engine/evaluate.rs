@@ -14,7 +14,7 @@ use super::operators::{binary, unary};
 use super::random::Stream;
 use super::run::Run;
 use super::state::State;
-use super::value::{Array, Value, MAX_ELEMENTS};
+use super::value::{or_zero, Array, Value, MAX_ELEMENTS};
 use crate::Span;
 
 /// What a call costs, in steps of work.
@@ -147,7 +147,8 @@ impl Run<'_> {
     /// The number for an operation; 0 stands for what is no number or has no bounds, as it does in
     /// CityEngine, and a message says so once for each place in a rule.
     pub(super) fn without_bounds(&mut self, number: f64, span: Span) -> Result<f64, Fault> {
-        if number.is_finite() {
+        let bounded = or_zero(number);
+        if bounded == number {
             return Ok(number);
         }
         if !self.zeroed.contains(&span) {
@@ -156,7 +157,7 @@ impl Run<'_> {
             let told = format!("in the rule {rule}, 0 stands for a value that is {number}");
             self.write(&Value::text(&told), span)?;
         }
-        Ok(0.0)
+        Ok(bounded)
     }
 
     pub fn values(&mut self, args: &[Expr], scene: &mut Scene<'_>) -> Result<Vec<Value>, Fault> {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::operators::binary;
-use super::value::{Array, Value, MAX_ELEMENTS};
+use super::value::{or_zero, Array, Kind, Value, MAX_ELEMENTS};
 use super::{arrays, colours, lists, strings};
 use crate::ast::BinaryOp;
 
@@ -103,9 +103,11 @@ impl Function {
     /// number of the shape's stream.
     pub fn call(self, args: &[Value], mut random: impl FnMut() -> f64) -> Result<Value, String> {
         match self {
-            Self::Math(map) => mapped(&args[0], |value| Ok(Value::Number(map(finite(value)?)))),
+            Self::Math(map) => mapped(&args[0], Kind::Numbers, |value| {
+                Ok(Value::Number(map(finite(value)?)))
+            }),
             Self::Math2(map) => Ok(Value::Number(map(finite(&args[0])?, finite(&args[1])?))),
-            Self::Test(test) => mapped(&args[0], |value| {
+            Self::Test(test) => mapped(&args[0], Kind::Truths, |value| {
                 Ok(Value::Bool(test(number(std::slice::from_ref(value), 0)?)))
             }),
             Self::Fold(fold, wanted) => match args {
@@ -191,22 +193,22 @@ fn folded(args: &[Value], fold: fn(f64, f64) -> f64) -> Result<Value, String> {
     Ok(Value::Number(sum))
 }
 
-/// Of each element of an array, and of a single value.
+/// Of each element of an array, and of a single value; `kind` is what an empty array holds then.
 pub(super) fn mapped(
     value: &Value,
+    kind: Kind,
     map: impl Fn(&Value) -> Result<Value, String>,
 ) -> Result<Value, String> {
     let Value::Array(array) = value else {
         return map(value);
     };
     let values: Result<_, _> = array.values.iter().map(map).collect();
-    Ok(Value::Array(Arc::new(Array::new(array.columns, values?))))
+    let found = Array::new(array.columns, values?).or(kind);
+    Ok(Value::Array(Arc::new(found)))
 }
 
-/// A number; 0 stands for what is none or has no bounds, as it does in CityEngine.
 fn finite(value: &Value) -> Result<f64, String> {
-    let number = number(std::slice::from_ref(value), 0)?;
-    Ok(if number.is_finite() { number } else { 0.0 })
+    number(std::slice::from_ref(value), 0).map(or_zero)
 }
 
 /// Whether it counts as a number where two are compared.

@@ -111,6 +111,7 @@ impl Lowering<'_> {
         if let Some(Block::Cells { cells: rest, .. }) = &call.rest {
             cells.extend(self.cells(rest));
         }
+        self.tells_pivot |= id.turns_about_pivot();
         let mut lowered = Vec::with_capacity(args.len());
         for (index, arg) in args.iter().enumerate() {
             lowered.push(match (&arg.kind, self.word(arg)) {

@@ -5,12 +5,17 @@ use std::sync::Arc;
 
 use crate::ast::{BinaryOp, UnaryOp};
 
-use super::value::{Array, Value};
+use super::value::{Array, Kind, Value};
 
 pub fn unary(op: UnaryOp, value: Value) -> Result<Value, String> {
     if let Value::Array(array) = &value {
         let values: Result<_, _> = array.values.iter().map(|v| unary(op, v.clone())).collect();
-        return Ok(Value::Array(Arc::new(Array::new(array.columns, values?))));
+        let kind = match op {
+            UnaryOp::Not | UnaryOp::EachNot => Kind::Truths,
+            _ => Kind::Numbers,
+        };
+        let found = Array::new(array.columns, values?).or(kind);
+        return Ok(Value::Array(Arc::new(found)));
     }
     let unusable = || format!("{} has no `{}`", value.kind(), op.sign());
     match op {
@@ -157,6 +162,23 @@ fn each(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
         ),
         _ => return Err(format!("`{}` needs an array", op.sign())),
     };
-    let values: Vec<Value> = values?;
-    Ok(Value::Array(Arc::new(Array::new(columns, values))))
+    let found = Array::new(columns, values?).or(kind_of(op, a, b));
+    Ok(Value::Array(Arc::new(found)))
+}
+
+/// What an operator makes of elements of these.
+fn kind_of(op: BinaryOp, a: &Value, b: &Value) -> Kind {
+    use BinaryOp as B;
+    let holds_texts = |value: &Value| match value {
+        Value::Array(array) => array.kind == Kind::Texts,
+        other => Kind::of(other) == Kind::Texts,
+    };
+    match op {
+        B::Add | B::EachAdd if holds_texts(a) || holds_texts(b) => Kind::Texts,
+        B::Add | B::EachAdd | B::Subtract | B::EachSubtract | B::Multiply | B::EachMultiply => {
+            Kind::Numbers
+        }
+        B::Divide | B::EachDivide | B::Remainder | B::EachRemainder => Kind::Numbers,
+        _ => Kind::Truths,
+    }
 }

@@ -12,7 +12,7 @@ use super::laid::{laid, normal};
 use super::state::Look;
 use super::texture_map::{axes_of, TextureMap};
 use super::tree::{Node, Tree};
-use crate::shape::{over, Asset, Geometry, Instance, Scope};
+use crate::shape::{over, Asset, Geometry, Instance, Scope, View};
 
 /// Polygons of all leaves. A polygon's first ring is its outline; each leaf with geometry is one
 /// feature, in the order of the tree.
@@ -185,12 +185,14 @@ impl Packer {
     }
 
     fn instance(&mut self, instance: &Instance, transform: [f64; 12], feature: i32) {
+        let seen = instance.asset.seen(View {
+            mirrored: instance.is_mirrored(),
+            inside_out: instance.inside_out,
+        });
         let assets = &mut self.packed.assets;
-        let known = assets
-            .iter()
-            .position(|other| Arc::ptr_eq(other, &instance.asset));
+        let known = assets.iter().position(|other| Arc::ptr_eq(other, &seen));
         let asset = known.unwrap_or_else(|| {
-            assets.push(instance.asset.clone());
+            assets.push(seen);
             assets.len() - 1
         });
         self.packed.instance_feature.push(feature);
@@ -221,7 +223,8 @@ fn map_on(node: &Node, normal: impl FnOnce() -> DVec3) -> Option<TextureMap> {
     told.or_else(by_size)
 }
 
-/// From an asset's frame to that of places, by rows; None where its box is flat and the asset is not.
+/// From an asset's frame to that of places, by rows: a turn with a stretch, from the frame of the
+/// mirrored asset where it is mirrored. None where its box is flat and the asset is not.
 fn placed(scope: &Scope, instance: &Instance) -> Option<[f64; 12]> {
     let (low, size) = instance.bounds();
     let ratio = over(scope.size, size);
@@ -231,9 +234,14 @@ fn placed(scope: &Scope, instance: &Instance) -> Option<[f64; 12]> {
         return None;
     }
     let place = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
-    let world = scope.axes * DMat3::from_diagonal(stretch);
-    let turn = place * world * instance.upright() * place.transpose();
-    let by = place * (scope.origin - world * low);
+    let world = scope.axes * DMat3::from_diagonal(stretch * instance.signs);
+    let mut turn = place * world * instance.upright() * place.transpose();
+    if instance.is_mirrored() {
+        turn.x_axis = -turn.x_axis;
+    }
+    let turned_round = instance.signs.cmplt(DVec3::ZERO) & !flat;
+    let far = DVec3::select(turned_round, scope.size, DVec3::ZERO);
+    let by = place * (scope.origin + scope.axes * far - world * low);
     let row = |k: usize| [turn.x_axis[k], turn.y_axis[k], turn.z_axis[k], by[k]];
     let rows = [row(0), row(1), row(2)].concat();
     rows.try_into().ok()

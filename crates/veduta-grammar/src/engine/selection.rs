@@ -19,6 +19,7 @@ use super::fault::Fault;
 use super::limits::Limit;
 use super::run::Run;
 use super::state::{Place, State};
+use super::texture_map::{map_of, TextureMap};
 use super::value::Value;
 
 /// The kind of component that a word such as `f` names.
@@ -28,6 +29,7 @@ pub fn kind_named(word: &str) -> Option<Kind> {
         "e" => Kind::Edges,
         "fe" => Kind::FaceEdges,
         "v" => Kind::Vertices,
+        "fv" => Kind::FaceVertices,
         "h" => Kind::Holes,
         "g" => Kind::Groups,
         "m" => Kind::Materials,
@@ -42,6 +44,9 @@ pub struct Choosing {
     kind: Kind,
     frames: Frames,
     around: OnceCell<Vec<Surroundings>>,
+    keeps_pivot: bool,
+    /// Where the texture lies, for selectors that ask for it.
+    texture: Option<TextureMap>,
 }
 
 impl Choosing {
@@ -55,17 +60,48 @@ impl Choosing {
                 object: run.first().state.form.scope.axes,
             },
             around: OnceCell::new(),
+            keeps_pivot: false,
+            texture: None,
         }
     }
 
-    /// Faces whose scopes have the axes of the shape (`noAlign`).
+    /// Components whose scopes have the axes of the shape, and whose pivot is the shape's (`noAlign`).
     pub fn unaligned(mut self) -> Self {
-        if self.kind == Kind::Faces {
-            for one in &mut self.found {
-                one.form = Form::around(one.form.world_mesh(), self.form.scope.axes, false);
-            }
+        let axes = self.form.scope.axes;
+        for one in &mut self.found {
+            one.form = match one.form.geometry {
+                Geometry::Nothing => without_faces(std::iter::once(&one.form.scope), axes),
+                _ => Form::around(one.form.world_mesh(), axes, one.form.geometry.is_solid()),
+            };
         }
+        self.keeps_pivot = true;
         self
+    }
+
+    /// With the texture of a layer of the shape, for selectors such as `uv.left`.
+    pub fn textured(self, state: &State, layer: f64) -> Result<Self, String> {
+        Ok(Self {
+            texture: Some(map_of(state, layer)?),
+            ..self
+        })
+    }
+
+    /// Whether an edge looks to this side of the texture: u grows to the right, v upwards. None where there
+    /// is no such side.
+    fn is_beside(&self, side: &str, at: usize) -> Option<bool> {
+        let normal = self.found[at].normal;
+        let along = |grow: DVec3| grow.normalize_or_zero().dot(normal);
+        let [u, v] = self.texture.as_ref()?.grow.map(along);
+        let looks = u.abs().max(v.abs()) > TOLERANCE;
+        let across = looks && u.abs() >= v.abs();
+        Some(match side {
+            "left" => across && u < 0.0,
+            "right" => across && u > 0.0,
+            "side" => across,
+            "bottom" => looks && !across && v < 0.0,
+            "top" => looks && !across && v > 0.0,
+            _ => return None,
+        })
     }
 
     fn around(&self, at: usize) -> Surroundings {
@@ -81,8 +117,11 @@ impl Choosing {
     }
 
     fn is_meant(&self, word: &str, at: usize, span: Span) -> Result<bool, Fault> {
-        is_meant(word, &self.found[at], self.frames, || self.around(at))
-            .ok_or_else(|| Fault::at(span, format!("`{word}` selects no component")))
+        let meant = match word.strip_prefix("uv.") {
+            Some(side) => self.is_beside(side, at),
+            None => is_meant(word, &self.found[at], self.frames, || self.around(at)),
+        };
+        meant.ok_or_else(|| Fault::at(span, format!("`{word}` selects no component")))
     }
 
     /// The shape of a component, with what it has from the whole, before a cell has taken it:
@@ -149,34 +188,32 @@ impl Choosing {
         let all = joined(&parts.iter().collect::<Vec<_>>(), self.near());
         let axes = self.found[picked[0]].form.scope.axes;
         if all.is_empty() {
-            return Some(self.without_faces(picked, axes));
+            let scopes = picked.iter().map(|&at| &self.found[at].form.scope);
+            return Some(without_faces(scopes, axes));
         }
         Some(Form::around(all, axes, false))
     }
 
-    /// Edges or vertices as one shape: a scope around them.
-    fn without_faces(&self, picked: &[usize], axes: DMat3) -> Form {
-        let ends = picked.iter().flat_map(|&at| {
-            let scope = self.found[at].form.scope;
-            [scope.origin, scope.world(DVec3::ONE)]
-        });
-        let local: Vec<DVec3> = ends.map(|end| axes.transpose() * end).collect();
-        let low = local.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = local.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let scope = Scope {
-            origin: axes * low,
-            axes,
-            size: high - low,
-        };
-        Form {
-            scope,
-            geometry: Geometry::Nothing,
-        }
-    }
-
     /// Whether its components have pivots of their own.
     pub fn has_pivots(&self) -> bool {
-        !matches!(self.kind, Kind::Groups | Kind::Materials)
+        !self.keeps_pivot && !matches!(self.kind, Kind::Groups | Kind::Materials)
+    }
+}
+
+/// Edges or vertices as one shape: a scope around them.
+fn without_faces<'s>(scopes: impl Iterator<Item = &'s Scope>, axes: DMat3) -> Form {
+    let ends = scopes.flat_map(|scope| [scope.origin, scope.world(DVec3::ONE)]);
+    let local: Vec<DVec3> = ends.map(|end| axes.transpose() * end).collect();
+    let low = local.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = local.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let scope = Scope {
+        origin: axes * low,
+        axes,
+        size: high - low,
+    };
+    Form {
+        scope,
+        geometry: Geometry::Nothing,
     }
 }
 
@@ -310,7 +347,8 @@ impl Run<'_> {
         scene: &mut Scene<'_>,
     ) -> Result<Vec<Value>, Fault> {
         self.check_time(span)?;
-        let mut choosing = Choosing::of(&scene.state.form, kind, self);
+        let choosing = Choosing::of(&scene.state.form, kind, self).textured(scene.state, 0.0);
+        let mut choosing = choosing.map_err(|message| Fault::at(span, message))?;
         if !aligned {
             choosing = choosing.unaligned();
         }

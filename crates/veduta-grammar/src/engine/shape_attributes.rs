@@ -120,7 +120,7 @@ impl ShapeAttribute {
             }
             Self::Seed => Value::Number(state.seed),
             Self::Elevation => Value::Number(scope.origin.y),
-            Self::Own => Value::Number(f64::from(number_of(&path()))),
+            Self::Own => Value::Number(number_of(&path()) as f64),
             Self::PivotPlace(axis) => {
                 Value::Number((object.axes.transpose() * (origin - object.origin))[axis])
             }
@@ -144,10 +144,11 @@ pub fn pivot(state: &State, first: &Node) -> (DVec3, DMat3) {
     own.unwrap_or((object.origin, object.axes))
 }
 
-/// FNV-1a (Fowler, Noll, Vo) of a way through the tree.
-fn number_of(path: &[u32]) -> u32 {
+/// FNV-1a (Fowler, Noll, Vo) of a way through the tree: its upper 53 bits, which numbers can hold.
+fn number_of(path: &[u32]) -> u64 {
     let bytes = path.iter().flat_map(|place| place.to_le_bytes());
-    bytes.fold(0x811c_9dc5, |hash, byte| {
-        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
-    })
+    let whole = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    whole >> 11
 }

@@ -119,20 +119,19 @@ impl State {
     /// Puts the pivot where it is in a component: at its first corner, with the axes of its scope.
     pub fn pivot_here(&mut self) {
         let scope = self.form.scope;
-        let mesh = self.form.world_mesh();
-        let first = mesh.faces().next().and_then(|face| {
-            let ring = face.rings().next()?;
-            ring.first().map(|&corner| mesh.points[corner as usize])
-        });
+        let first = self
+            .form
+            .geometry
+            .first_corner()
+            .map(|unit| scope.world(unit));
         self.extra_mut().pivot = Some((first.unwrap_or(scope.origin), scope.axes));
     }
 
-    /// Changes where textures lie on the shape.
+    /// Changes where textures lie on the shape. What `setupProjection` has prepared stays where it is.
     pub fn carry_textures(&mut self, change: impl Fn(&TextureMap) -> TextureMap) {
         if let Some(extra) = &mut self.extra {
             let extra = Arc::make_mut(extra);
-            let maps = extra.maps.iter_mut().chain(&mut extra.projections);
-            for map in maps.flatten() {
+            for map in extra.maps.iter_mut().flatten() {
                 *map = change(map);
             }
         }

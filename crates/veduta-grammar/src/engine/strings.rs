@@ -2,7 +2,7 @@
 
 use super::functions::{mapped, text, Function};
 use super::regexes;
-use super::value::{Value, MAX_ELEMENTS};
+use super::value::{Kind, Value, MAX_ELEMENTS};
 
 /// Names, functions, and the fewest and most arguments.
 pub const TABLE: &[(&str, Function, usize, usize)] = {
@@ -101,7 +101,7 @@ const MISSING: &str = "\u{e000}";
 /// `isNull(value)`: whether it is the number or the text that stands for a missing one; of an array
 /// for each of its elements.
 fn is_null(args: &[Value]) -> Result<Value, String> {
-    mapped(&args[0], |value| {
+    mapped(&args[0], Kind::Truths, |value| {
         Ok(Value::Bool(match value {
             Value::Number(number) => number.is_nan(),
             Value::Text(text) => text.as_ref() == MISSING,

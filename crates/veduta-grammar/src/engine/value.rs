@@ -35,6 +35,15 @@ impl Kind {
     }
 }
 
+/// The number; 0 for what is none or has no bounds, as CityEngine takes it by default.
+pub fn or_zero(number: f64) -> f64 {
+    if number.is_finite() {
+        number
+    } else {
+        0.0
+    }
+}
+
 /// A table of values, row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Array {

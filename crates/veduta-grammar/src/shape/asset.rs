@@ -1,6 +1,6 @@
 //! Ready-made geometry that shapes are filled with.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DMat3, DVec3};
 use veduta_geometry::solid::Mesh;
@@ -21,6 +21,18 @@ pub struct Asset {
     slots: Vec<Slot>,
     /// The names of the slots, and the group of each face, where the file has them.
     labels: Labels,
+    view: View,
+    /// The other views of it, each made once.
+    views: [OnceLock<Arc<Asset>>; 4],
+}
+
+/// How an asset differs from what its file has. Transforms stay turns and stretches, which all formats
+/// can tell; what a turn cannot do is done to the mesh.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct View {
+    /// Its own mirror image, left for right, about x = 0.
+    pub mirrored: bool,
+    pub inside_out: bool,
 }
 
 /// What the file of an asset calls its parts.
@@ -95,6 +107,8 @@ impl Asset {
                 texture: None,
             }],
             labels: Labels::default(),
+            view: View::default(),
+            views: Default::default(),
         })
     }
 
@@ -151,6 +165,44 @@ impl Asset {
         })
     }
 
+    pub fn view(&self) -> View {
+        self.view
+    }
+
+    /// The asset mirrored or turned inside out; the same one each time.
+    pub fn seen(self: &Arc<Self>, view: View) -> Arc<Self> {
+        if view == self.view {
+            return self.clone();
+        }
+        let place = usize::from(view.mirrored) + 2 * usize::from(view.inside_out);
+        let made = self.views[place].get_or_init(|| Arc::new(self.made(view)));
+        made.clone()
+    }
+
+    fn made(&self, view: View) -> Self {
+        let mirrors = view.mirrored != self.view.mirrored;
+        let mut unit = Mesh::clone(&self.unit);
+        let mut low = self.low;
+        if mirrors {
+            unit = unit.mapped(|point| mirrored(point, DVec3::new(-1.0, 1.0, 1.0), self.size));
+            low.x = -(low.x + self.size.x);
+        }
+        if mirrors != (view.inside_out != self.view.inside_out) {
+            unit = unit.reversed();
+        }
+        Self {
+            name: self.name.clone(),
+            low,
+            unit: Arc::new(unit),
+            face_slot: self.face_slot.clone(),
+            slots: self.slots.clone(),
+            labels: self.labels.clone(),
+            view,
+            views: Default::default(),
+            ..*self
+        }
+    }
+
     /// The lower corner of its box, and its size (m), in its own frame.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         (self.low, self.size)
@@ -203,12 +255,35 @@ impl Asset {
 pub struct Instance {
     pub asset: Arc<Asset>,
     pub z_up: bool,
+    /// -1 along the axes of the box in which it is mirrored, about the middle of the box.
+    pub signs: DVec3,
+    pub inside_out: bool,
+}
+
+/// A point in shares of a box of this size, mirrored in it; where the box is flat it stays.
+fn mirrored(unit: DVec3, signs: DVec3, size: DVec3) -> DVec3 {
+    let turned = (unit - 0.5) * signs + 0.5;
+    DVec3::select(size.cmpeq(DVec3::ZERO), unit, turned)
 }
 
 /// From a frame with z up to one with y up: a quarter turn about x.
 const Y_FROM_Z: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y);
 
 impl Instance {
+    pub fn new(asset: Arc<Asset>, z_up: bool) -> Self {
+        Self {
+            asset,
+            z_up,
+            signs: DVec3::ONE,
+            inside_out: false,
+        }
+    }
+
+    /// Whether it is its own mirror image, however it is turned.
+    pub fn is_mirrored(&self) -> bool {
+        self.signs.element_product() < 0.0
+    }
+
     /// From the asset's frame to one with y up.
     pub fn upright(&self) -> DMat3 {
         if self.z_up {
@@ -248,15 +323,23 @@ impl Instance {
 
     /// The faces in shares of the box.
     pub fn mesh(&self) -> Arc<Mesh> {
-        if !self.z_up {
-            return self.asset.unit.clone();
+        let size = self.bounds().1;
+        let mut mesh = self.asset.unit.clone();
+        if self.z_up {
+            let flip = |unit: DVec3| DVec3::new(unit.x, unit.z, 1.0 - unit.y);
+            let turned = Mesh::clone(&mesh).mapped(flip);
+            mesh = Arc::new(match size.z == 0.0 {
+                true => turned.mapped(|unit| unit.with_z(0.0)),
+                false => turned,
+            });
         }
-        let flip = |unit: DVec3| DVec3::new(unit.x, unit.z, 1.0 - unit.y);
-        let flat = self.bounds().1.z == 0.0;
-        let turned = Mesh::clone(&self.asset.unit).mapped(flip);
-        Arc::new(match flat {
-            true => turned.mapped(|unit| unit.with_z(0.0)),
-            false => turned,
-        })
+        if self.signs != DVec3::ONE {
+            let turned = Mesh::clone(&mesh);
+            mesh = Arc::new(turned.mapped(|unit| mirrored(unit, self.signs, size)));
+        }
+        if self.is_mirrored() != self.inside_out {
+            mesh = Arc::new(Mesh::clone(&mesh).reversed());
+        }
+        mesh
     }
 }

@@ -17,6 +17,8 @@ pub enum Kind {
     /// The edges of each face, face by face.
     FaceEdges,
     Vertices,
+    /// The corners of each face, face by face.
+    FaceVertices,
     /// What fills each hole of each face.
     Holes,
     /// The groups of an asset, or the shape where it has none.
@@ -39,12 +41,13 @@ pub enum Direction {
 /// A component: its number, where it looks, and its form.
 ///
 /// Faces look along their normal, edges of faces away from the face, edges between faces along the
-/// mean of the two normals, edges of one face away from it; vertices look nowhere.
+/// mean of the two normals, edges of one face away from it; vertices along the mean of the normals of
+/// their faces, and corners of faces along the normal of the face.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
     pub index: usize,
     pub direction: Option<Direction>,
-    /// The direction in the world; zero for vertices.
+    /// The direction in the world; zero where the faces around it look against each other.
     pub normal: DVec3,
     pub form: Form,
 }
@@ -53,7 +56,8 @@ pub struct Component {
 ///
 /// A face's scope has z along its normal. Where the face stands in the shape's scope, x is level
 /// there and y points up; where it lies, x runs along its first edge. An edge's scope has x along
-/// the edge, a vertex's is a point along the axes of the shape.
+/// the edge and z along the mean of the normals of its faces, or, of the edges of each face, away from
+/// the face; a vertex's is a point with z along the mean of the normals.
 pub fn components(form: &Form, kind: Kind) -> Vec<Component> {
     match kind {
         Kind::Faces => faces(form),
@@ -61,6 +65,7 @@ pub fn components(form: &Form, kind: Kind) -> Vec<Component> {
         Kind::FaceEdges => face_edges(form),
         Kind::Holes => holes(form),
         Kind::Vertices => vertices(form),
+        Kind::FaceVertices => face_vertices(form),
         Kind::Groups | Kind::Materials => parts(form, kind),
     }
 }
@@ -261,6 +266,8 @@ fn edges(form: &Form) -> Vec<Component> {
                 let edge: &mut Component = &mut found[at];
                 edge.normal = (edge.form.scope.axes.z_axis + normal).normalize_or_zero();
                 edge.direction = Some(direction(form.scope.axes, edge.normal));
+                let up = form.scope.axes.y_axis;
+                edge.form.scope = between_faces(&edge.form.scope, up, edge.normal);
                 continue;
             }
             let (a, b) = (mesh.points[from as usize], mesh.points[to as usize]);
@@ -273,6 +280,28 @@ fn edges(form: &Form) -> Vec<Component> {
     found
 }
 
+/// The scope of an edge between faces: z along the mean of their normals, and x upwards, where the edge
+/// is not level.
+fn between_faces(scope: &Scope, up: DVec3, normal: DVec3) -> Scope {
+    let x = scope.axes.x_axis;
+    let z = if normal == DVec3::ZERO {
+        scope.axes.z_axis
+    } else {
+        normal
+    };
+    if x.dot(up) >= -TOLERANCE {
+        return Scope {
+            axes: frame_of(x, z),
+            ..*scope
+        };
+    }
+    Scope {
+        origin: scope.world(DVec3::X),
+        axes: frame_of(-x, z),
+        size: scope.size,
+    }
+}
+
 fn face_edges(form: &Form) -> Vec<Component> {
     let mesh = form.world_mesh();
     let mut found = Vec::new();
@@ -281,11 +310,20 @@ fn face_edges(form: &Form) -> Vec<Component> {
         let normal = face.normal();
         for (from, to) in face.edges() {
             let (a, b) = (mesh.points[from as usize], mesh.points[to as usize]);
-            found.extend(edge_component(form, a, b, normal, index));
+            found.extend(edge_component(form, a, b, normal, index).map(|mut edge| {
+                let x = edge.form.scope.axes.x_axis;
+                edge.form.scope.axes = frame_of(x, edge.normal);
+                edge
+            }));
             index += 1;
         }
     }
     found
+}
+
+/// Axes with x and, across it, z.
+fn frame_of(x: DVec3, z: DVec3) -> DMat3 {
+    DMat3::from_cols(x, z.cross(x), z)
 }
 
 /// An edge of a face: x along it, z along the normal of the face, y into the face.
@@ -299,7 +337,7 @@ fn edge_component(
     let x = (to - from).try_normalize()?;
     let scope = Scope {
         origin: from,
-        axes: DMat3::from_cols(x, normal.cross(x), normal),
+        axes: frame_of(x, normal),
         size: DVec3::new(from.distance(to), 0.0, 0.0),
     };
     let mut edge = without_faces(index, scope);
@@ -310,18 +348,49 @@ fn edge_component(
 
 fn vertices(form: &Form) -> Vec<Component> {
     let mesh = form.world_mesh();
-    mesh.points
-        .iter()
-        .enumerate()
-        .map(|(index, &origin)| {
-            let scope = Scope {
-                origin,
-                axes: form.scope.axes,
-                size: DVec3::ZERO,
-            };
-            without_faces(index, scope)
-        })
+    let mut sums = vec![DVec3::ZERO; mesh.points.len()];
+    for face in mesh.faces() {
+        let normal = face.normal();
+        for &point in face.rings().flatten() {
+            sums[point as usize] += normal;
+        }
+    }
+    let places = mesh.points.iter().zip(&sums).enumerate();
+    places
+        .map(|(index, (&origin, sum))| vertex(form, origin, sum.normalize_or_zero(), index))
         .collect()
+}
+
+fn face_vertices(form: &Form) -> Vec<Component> {
+    let mesh = form.world_mesh();
+    let each = mesh.faces().flat_map(|face| {
+        let corners = face.rings().flatten();
+        let normal = face.normal();
+        corners
+            .map(move |&point| (point, normal))
+            .collect::<Vec<_>>()
+    });
+    let found = each.enumerate();
+    found
+        .map(|(index, (point, normal))| vertex(form, mesh.points[point as usize], normal, index))
+        .collect()
+}
+
+/// A place that looks along a normal: z along it, x level where the normal is not upright.
+fn vertex(form: &Form, origin: DVec3, normal: DVec3, index: usize) -> Component {
+    let axes = match normal == DVec3::ZERO {
+        true => form.scope.axes,
+        false => face_axes(form.scope.axes.y_axis, normal, form.scope.axes.x_axis),
+    };
+    let scope = Scope {
+        origin,
+        axes,
+        size: DVec3::ZERO,
+    };
+    let mut vertex = without_faces(index, scope);
+    vertex.normal = normal;
+    vertex.direction = (normal != DVec3::ZERO).then(|| direction(form.scope.axes, normal));
+    vertex
 }
 
 fn without_faces(index: usize, scope: Scope) -> Component {

@@ -116,6 +116,22 @@ impl Geometry {
         }
     }
 
+    /// The first corner of the first face in shares of the scope; None without faces.
+    pub fn first_corner(&self) -> Option<DVec3> {
+        let of_mesh = |mesh: &Mesh| {
+            let face = mesh.faces().next()?;
+            face.outline()
+                .first()
+                .map(|&corner| mesh.points[corner as usize])
+        };
+        match self {
+            Self::Nothing => None,
+            Self::Rectangle(axis) => Some(rectangle(*axis)[0]),
+            Self::Faces { mesh, .. } => of_mesh(mesh),
+            Self::Box | Self::Instance(_) => of_mesh(&self.mesh()),
+        }
+    }
+
     /// The faces in shares of the scope.
     pub fn mesh(&self) -> Mesh {
         match self {

@@ -1,6 +1,6 @@
 //! What is around the components of a shape: its border, and the edges of roofs.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use veduta_geometry::solid::{weld, Face, Mesh};
@@ -14,11 +14,11 @@ use super::selecting::is_aslant;
 pub enum RoofEdge {
     /// The level lower end of a slope.
     Eave,
-    /// Slopes meet and fall away from it; it is not level.
+    /// Slopes meet and fall away from it; it is not level, and begins at an eave.
     Hip,
     /// Slopes meet and rise from it.
     Valley,
-    /// Slopes meet and fall away from it; it is level.
+    /// Slopes meet and fall away from it, and it is no hip.
     Ridge,
 }
 
@@ -34,8 +34,11 @@ pub struct Surroundings {
 pub fn surroundings(form: &Form, kind: Kind) -> Vec<Surroundings> {
     let mesh = form.world_mesh();
     let extent = form.scope.size.length();
-    let sides = Sides::of(&mesh, extent);
+    let mut sides = Sides::of(&mesh, extent);
     let up = form.scope.axes.y_axis;
+    if matches!(kind, Kind::Edges | Kind::FaceEdges) {
+        sides.find_eaves(&mesh, up, extent);
+    }
     let of_edge = |from: u32, to: u32, extent: f64| Surroundings {
         border: sides.faces(from, to).len() == 1,
         roof: sides.roof_edge(&mesh, from, to, up, extent),
@@ -51,7 +54,7 @@ pub fn surroundings(form: &Form, kind: Kind) -> Vec<Surroundings> {
             all.map(|(a, b)| of_edge(a, b, extent)).collect()
         }
         Kind::Edges => {
-            let mut seen = std::collections::HashSet::new();
+            let mut seen = HashSet::new();
             let all = mesh.faces().flat_map(Face::edges);
             let first = all.filter(|&(a, b)| {
                 let has_length = mesh.points[a as usize] != mesh.points[b as usize];
@@ -59,15 +62,13 @@ pub fn surroundings(form: &Form, kind: Kind) -> Vec<Surroundings> {
             });
             first.map(|(a, b)| of_edge(a, b, extent)).collect()
         }
-        Kind::Vertices => {
-            let mut at_border = vec![false; mesh.points.len()];
-            for (a, b) in mesh.faces().flat_map(Face::edges) {
-                if sides.faces(a, b).len() == 1 {
-                    at_border[a as usize] = true;
-                    at_border[b as usize] = true;
-                }
-            }
-            at_border.into_iter().map(border).collect()
+        Kind::Vertices => sides.at_border(&mesh).into_iter().map(border).collect(),
+        Kind::FaceVertices => {
+            let at_border = sides.at_border(&mesh);
+            let corners = mesh.faces().flat_map(|face| face.rings().flatten());
+            corners
+                .map(|&point| border(at_border[point as usize]))
+                .collect()
         }
         Kind::Groups | Kind::Materials => Vec::new(),
         Kind::Holes => {
@@ -81,6 +82,8 @@ pub fn surroundings(form: &Form, kind: Kind) -> Vec<Surroundings> {
 struct Sides {
     first: Vec<u32>,
     faces: HashMap<(u32, u32), Vec<usize>>,
+    /// The ends of all eaves.
+    eaves: HashSet<u32>,
 }
 
 impl Sides {
@@ -89,6 +92,7 @@ impl Sides {
         let mut sides = Self {
             first,
             faces: HashMap::new(),
+            eaves: HashSet::new(),
         };
         for face in mesh.faces() {
             for (from, to) in face.edges() {
@@ -108,6 +112,32 @@ impl Sides {
         self.faces
             .get(&self.key(from, to))
             .map_or(&[], Vec::as_slice)
+    }
+
+    /// Of each point, whether an edge of one face alone ends there.
+    fn at_border(&self, mesh: &Mesh) -> Vec<bool> {
+        let mut found = vec![false; mesh.points.len()];
+        for (a, b) in mesh.faces().flat_map(Face::edges) {
+            if self.faces(a, b).len() == 1 {
+                found[a as usize] = true;
+                found[b as usize] = true;
+            }
+        }
+        found
+    }
+
+    fn find_eaves(&mut self, mesh: &Mesh, up: DVec3, extent: f64) {
+        for (from, to) in mesh.faces().flat_map(Face::edges) {
+            if self.roof_edge(mesh, from, to, up, extent) == Some(RoofEdge::Eave) {
+                let (from, to) = self.key(from, to);
+                self.eaves.extend([from, to]);
+            }
+        }
+    }
+
+    fn is_at_eave(&self, from: u32, to: u32) -> bool {
+        let (from, to) = self.key(from, to);
+        self.eaves.contains(&from) || self.eaves.contains(&to)
     }
 
     fn roof_edge(
@@ -133,7 +163,10 @@ impl Sides {
                 Some(if a.dot(b) > 0.0 {
                     RoofEdge::Valley
                 } else if !is_level {
-                    RoofEdge::Hip
+                    match self.is_at_eave(from, to) {
+                        true => RoofEdge::Hip,
+                        false => RoofEdge::Ridge,
+                    }
                 } else if rises(one) || rises(other) {
                     return None;
                 } else {

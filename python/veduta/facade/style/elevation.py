@@ -6,7 +6,7 @@ at y = 0, what stands before it at y < 0.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,7 +51,7 @@ class Elevation:
         return found[np.lexsort((found[:, 1], found[:, 0]))]
 
 
-def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevation:
+def elevation(derived: _core.DerivedLot, assets: Sequence[Asset]) -> Elevation:
     """The boxes of all surfaces that belong to the wall along the lot's first edge."""
     classes, said = derived.feature_class, derived.feature_provenance
     count = len(classes)
@@ -101,10 +101,10 @@ def _roofs(derived: _core.DerivedLot, classes: list[str]) -> tuple[NDArray[np.fl
 
 
 def instance_boxes(
-    derived: _core.DerivedLot, assets: Mapping[str, Asset]
+    derived: _core.DerivedLot, assets: Sequence[Asset]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The lower and upper corner (i, 3) of each instance."""
-    boxes = np.array([assets[name].box_m for name in derived.asset_names])  # (a, 2, 3)
+    boxes = np.array([asset.box_m for asset in assets])  # (a, 2, 3)
     middles, halves = boxes.mean(axis=1), 0.5 * np.diff(boxes, axis=1)[:, 0]  # y up
     middles = np.column_stack([middles[:, 0], -middles[:, 2], middles[:, 1]])
     halves = halves[:, [0, 2, 1]]

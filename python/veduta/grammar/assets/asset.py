@@ -7,7 +7,7 @@ a shape is flat, the plane z = 0 of the asset lies in it.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -86,6 +86,25 @@ class Asset:
             face_slot=np.searchsorted(chosen, self.face_slot[faces]).astype(np.int32),
             slots=tuple(self.slots[number] for number in chosen),
             given_box_m=self.box_m,
+        )
+
+    def seen(self, mirrored: bool, inside_out: bool) -> Asset:
+        """Its mirror image about x = 0, its faces seen from behind, or both."""
+        if not (mirrored or inside_out):
+            return self
+        told = [("mirrored", mirrored), ("inside out", inside_out)]
+        side = np.array([-1.0, 1.0, 1.0]) if mirrored else np.ones(3)
+        box = np.sort(self.box_m * side, axis=0)
+        corners = self.corners
+        if mirrored != inside_out:
+            rings = np.split(corners, self.offsets[1:-1])
+            corners = np.concatenate([ring[::-1] for ring in rings])
+        return replace(
+            self,
+            name=" ".join([self.name, *(word for word, is_so in told if is_so)]),
+            points_m=self.points_m * side,
+            corners=corners,
+            given_box_m=box,
         )
 
     @cached_property

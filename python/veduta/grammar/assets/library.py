@@ -36,6 +36,7 @@ class Library:
         self.search = search if isinstance(search, SearchPath) else SearchPath.of(search)
         self.missing: dict[str, str] = {}
         self._known: dict[str, Asset] = {}
+        self._views: dict[tuple[str, tuple[bool, bool]], Asset] = {}
 
     def __getitem__(self, name: str) -> Asset:
         """The asset; InputError where there is none."""
@@ -67,9 +68,18 @@ class Library:
         for name in rules.asset_names[0]:
             self.add_to(rules, name)
 
-    def assets_of(self, derived: _core.DerivedLot) -> dict[str, Asset]:
-        """The assets that a building was made with."""
-        return {name: self[name] for name in derived.asset_names}
+    def assets_of(self, derived: _core.DerivedLot) -> tuple[Asset, ...]:
+        """The assets that a building was made with, as its columns count them."""
+        seen = zip(derived.asset_names, derived.asset_views, strict=True)
+        return tuple(self._seen(name, view) for name, view in seen)
+
+    def _seen(self, name: str, view: tuple[bool, bool]) -> Asset:
+        """An asset as it is or from another side, which is made once."""
+        if view == (False, False):
+            return self[name]
+        if (name, view) not in self._views:
+            self._views[name, view] = self[name].seen(*view)
+        return self._views[name, view]
 
     def digest(self, rules: _core.GrammarRules) -> str:
         """The digest of all assets that the rules may name, those that are missing among them."""

@@ -28,10 +28,7 @@ const STEPS_PER_CORNER: usize = 16;
 /// origin. It is cut where the faces end.
 pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let map = current(run, op, frame)?;
-    let instance = Instance {
-        asset: asset(run, op, 1, frame)?,
-        z_up: false,
-    };
+    let instance = Instance::new(asset(run, op, 1, frame)?, false);
     let height = number(run, op, 2, frame)?;
     let by_normals = op.args.len() > 3 && word(run, op, 3, frame)?.as_ref() == "vertex.normal";
     let keeps = op.args.len() > 4 && word(run, op, 4, frame)?.as_ref() == "keepPosition";

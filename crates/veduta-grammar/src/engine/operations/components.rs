@@ -15,9 +15,10 @@ use crate::shape::{Form, Kind};
 
 /// `comp(f) { front : A | side : B | all = C }`: each component goes to the first cell that
 /// selects it. After `:` each is a shape of its own, after `=` those of the cell are one, after `=:`
-/// those of the cell that hang together are one. `f` are faces, `e` edges, each once, `fe` the edges of each face, `v` vertices, `h` what fills holes,
-/// `g` and `m` the groups and materials of an asset. With `noAlign` the scopes of faces have the axes
-/// of the shape.
+/// those of the cell that hang together are one. `f` are faces, `e` edges, each once, `fe` the edges of each face, `v` vertices,
+/// `fv` the corners of each face, `h` what fills holes,
+/// `g` and `m` the groups and materials of an asset. With `noAlign` the scopes have the axes
+/// of the shape, whose pivot stays.
 ///
 /// Selectors are words, numbers (-1 is the last) and conditions, which may be joined by `&&`, `||`
 /// and `!`. Other than in CityEngine, `street.front` and its like are always what `object.front`
@@ -25,12 +26,13 @@ use crate::shape::{Form, Kind};
 pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let kind = word(run, op, 0, frame)?;
     let Some(kind) = kind_named(&kind) else {
-        let message = format!("`{kind}` is no component: f, e, fe, v, g, m or h");
+        let message = format!("`{kind}` is no component: f, e, fe, v, fv, g, m or h");
         return Err(Fault::at(op.span, message));
     };
     run.record(None, &frame.state, op.span)?;
     let whole = frame.state.clone();
-    let mut choosing = Choosing::of(&whole.form, kind, run);
+    let choosing = Choosing::of(&whole.form, kind, run).textured(&whole, 0.0);
+    let mut choosing = choosing.map_err(|message| Fault::at(op.span, message))?;
     if op.args.len() > 1 && word(run, op, 1, frame)?.as_ref() == "noAlign" {
         choosing = choosing.unaligned();
     }
@@ -69,19 +71,15 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
                 let place = Place { index, total };
                 let mut state = whole.selected(shape, place, selector.name());
                 state.extra_mut().trims = std::mem::take(&mut planes[at]);
-                run_component(run, body, state, frame)?;
+                run_component(run, body, state, choosing.has_pivots(), frame)?;
             }
             continue;
         }
         let total = shapes.len();
         for (index, shape) in shapes.into_iter().enumerate() {
             let place = Place { index, total };
-            run_component(
-                run,
-                body,
-                whole.selected(shape, place, selector.name()),
-                frame,
-            )?;
+            let state = whole.selected(shape, place, selector.name());
+            run_component(run, body, state, choosing.has_pivots(), frame)?;
         }
     }
     frame.state = whole;
@@ -114,14 +112,15 @@ pub fn run_shapes(
     Ok(())
 }
 
-/// Runs a cell's body on a component, which has a pivot of its own.
+/// Runs a cell's body on a component, which may have a pivot of its own.
 fn run_component(
     run: &mut Run<'_>,
     body: &Body,
     mut state: State,
+    has_pivot: bool,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    if run.code.tells_pivot {
+    if has_pivot && run.code.tells_pivot {
         state.pivot_here();
     }
     run.run_cell(body, state, frame)

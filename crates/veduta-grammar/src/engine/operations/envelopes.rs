@@ -71,8 +71,12 @@ fn bounds(
     let edges = sheet.corner_count();
     let given = value(run, op, 2, frame)?;
     if let (Value::Array(_), 4) = (&given, op.args.len()) {
-        let walls = numbers(op, &given, edges)?;
-        let angles = numbers(op, &value(run, op, 3, frame)?, edges)?;
+        let mut walls = numbers(run, op, &given)?;
+        let given = value(run, op, 3, frame)?;
+        let mut angles = numbers(run, op, &given)?;
+        // Edges without numbers of their own have walls up to the top.
+        walls.resize(edges, 0.0);
+        angles.resize(edges, 90.0);
         let each = walls.into_iter().zip(angles);
         return each.map(|(wall, angle)| bound(op, wall, angle)).collect();
     }

@@ -127,7 +127,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("setback", setbacks::setback, 1, 2),
     ("setTagsFromEdgeAttrs", tags::of_edges, 0, 0),
     ("setbackPerEdge", setbacks::per_edge, 1, 2),
-    ("setbackToArea", setbacks::to_area, 1, 3),
+    ("setbackToArea", setbacks::to_area, 1, 4),
     ("setupProjection", textures::set_up, 4, 7),
     ("shapeL", wings::l, 2, 2),
     ("shapeO", wings::o, 4, 4),
@@ -162,6 +162,11 @@ impl OperationId {
     /// Whether shapes have to keep the planes that part them from each other.
     pub fn trims(self) -> bool {
         TABLE[self.0].0 == "trim"
+    }
+
+    /// Whether it turns scopes about the axes of the pivot.
+    pub fn turns_about_pivot(self) -> bool {
+        matches!(TABLE[self.0].0, "r" | "rotateScope")
     }
 
     /// Whether it has to do with tags.
@@ -316,26 +321,36 @@ fn value(
     }
 }
 
-/// An array as numbers from 0 on, `count` of them; 0 stands for those without bounds.
-fn numbers(operation: &Operation, value: &Value, count: usize) -> Result<Vec<f64>, Fault> {
+/// An array as numbers from 0 on; 0 stands for those without bounds, and a message says so.
+fn numbers(run: &mut Run<'_>, operation: &Operation, value: &Value) -> Result<Vec<f64>, Fault> {
     let Value::Array(array) = value else {
         let message = format!("an array is needed, not {}", value.kind());
         return Err(Fault::at(operation.span, message));
     };
-    let found: Option<Vec<f64>> = array
-        .values
-        .iter()
-        .map(|value| value.number().filter(|n| *n >= 0.0 || n.is_nan()))
-        .map(|number| number.map(|n| if n.is_finite() { n } else { 0.0 }))
+    let numbers = array.values.iter().map(Value::number);
+    let found: Option<Vec<f64>> = numbers
+        .map(|n| n.filter(|n| n.is_nan() || *n >= 0.0))
         .collect();
-    match found {
-        Some(found) if found.len() == count => Ok(found),
-        Some(found) => {
-            let message = format!("{} numbers for {count} edges", found.len());
-            Err(Fault::at(operation.span, message))
-        }
-        None => Err(Fault::at(operation.span, "numbers from 0 on are needed")),
+    let needed = || Fault::at(operation.span, "numbers from 0 on are needed");
+    let found = found.ok_or_else(needed)?;
+    let each = found.into_iter();
+    each.map(|number| run.without_bounds(number, operation.span))
+        .collect()
+}
+
+/// The same, where each of the edges needs one.
+fn numbers_of_edges(
+    run: &mut Run<'_>,
+    operation: &Operation,
+    value: &Value,
+    count: usize,
+) -> Result<Vec<f64>, Fault> {
+    let found = numbers(run, operation, value)?;
+    if found.len() == count {
+        return Ok(found);
     }
+    let message = format!("{} numbers for {count} edges", found.len());
+    Err(Fault::at(operation.span, message))
 }
 
 /// The argument at `index` as a number that has nothing to do with the scope's size.

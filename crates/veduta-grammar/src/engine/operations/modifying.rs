@@ -17,22 +17,20 @@ use super::word;
 use crate::ast::Joining;
 use crate::shape::{Component, Form, Geometry, Kind, TOLERANCE};
 
-/// `modify(f | e | v) { selector : operations | ... }`: as `comp`, but what the operations leave takes
+/// `modify(f | e | fe | v | fv) { selector : operations | ... }`: as `comp`, but what the operations leave takes
 /// the place of the component, and the shape stays one.
 ///
 /// Where a face, an edge or a vertex has only been moved, turned or sized, the corners of all faces
-/// there go with it, and faces that this bends become triangles. Where a face has become something
+/// there go with it, by the sum of what moves them, and faces that this bends become triangles. Where a face has become something
 /// else, that is in its place.
 pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let named = word(run, op, 0, frame)?;
     let kind = match kind_named(&named) {
-        Some(kind @ (Kind::Faces | Kind::Edges | Kind::Vertices)) => kind,
-        _ => {
-            return Err(Fault::at(
-                op.span,
-                format!("`{named}` cannot be modified: f, e or v"),
-            ))
+        Some(Kind::Holes | Kind::Groups | Kind::Materials) | None => {
+            let message = format!("`{named}` cannot be modified: f, e, fe, v or fv");
+            return Err(Fault::at(op.span, message));
         }
+        Some(kind) => kind,
     };
     let whole = frame.state.clone();
     let mut parts = Parts::of(&whole.form);
@@ -121,7 +119,7 @@ impl Parts {
             }
             (_, Some(form)) if left.len() == 1 => {
                 let ends: &[DVec3] = match kind {
-                    Kind::Edges => &[DVec3::ZERO, DVec3::X],
+                    Kind::Edges | Kind::FaceEdges => &[DVec3::ZERO, DVec3::X],
                     _ => &[DVec3::ZERO],
                 };
                 for &end in ends {
@@ -145,8 +143,9 @@ impl Parts {
     /// The shape as one; Err says what cannot be.
     fn put_together(mut self) -> Result<Mesh, String> {
         for (&number, places) in &self.moved {
-            let mean = places.iter().sum::<DVec3>() / places.len() as f64;
-            self.mesh.points[number as usize] = mean;
+            let point = &mut self.mesh.points[number as usize];
+            let from = *point;
+            *point += places.iter().map(|to| *to - from).sum::<DVec3>();
         }
         let mut rest = Mesh::with_points(self.mesh.points.clone());
         for face in self.mesh.faces() {

@@ -10,8 +10,8 @@ use super::{number, word};
 use crate::shape::Form;
 
 /// `setPivot(xyz | yzx | zxy, corner)`: the pivot comes to a corner of the scope, and both have axes
-/// that point into the scope: y along the axis that the letters name second, or against it.
-/// What is in the scope stays where it is.
+/// that point into the scope. The letters say what becomes of x, y and z: with `yzx` the new y lies along
+/// the old x, z along y, and x along z, or against them. What is in the scope stays where it is.
 ///
 /// Corners count as in the scope's origin, along x, along x and z, along z, and then the same four at
 /// the top.
@@ -19,8 +19,8 @@ pub fn set_pivot(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
     let letters = word(run, op, 0, frame)?;
     let order = match letters.as_ref() {
         "xyz" => [0, 1, 2],
-        "yzx" => [1, 2, 0],
-        "zxy" => [2, 0, 1],
+        "yzx" => [2, 0, 1],
+        "zxy" => [1, 2, 0],
         other => {
             let message = format!("`{other}` is no order of axes: xyz, yzx or zxy");
             return Err(Fault::at(op.span, message));

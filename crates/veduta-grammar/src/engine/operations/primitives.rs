@@ -16,18 +16,33 @@ const SIDES: f64 = 16.0;
 const MOST_SIDES: f64 = 2_000.0;
 
 /// `primitiveDisk()`, `primitiveDisk(sides)`, `primitiveDisk(sides, radius)`: level, seen from
-/// above. Without a radius the shape fills the scope, where a size of 0 is first made the mean of
+/// above, or upright in an upright flat scope. Without a radius the shape fills the scope, where a size of 0 is first made the mean of
 /// the others; with one (m) it stands in the middle of the scope's floor.
 pub fn make_disk(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let sides = count(run, op, 0, SIDES, 3.0, frame)?;
+    let now = frame.state.form.scope.size;
+    let across = lies_across(now);
+    let has = [0, 1, 2].map(|axis| axis != across);
     let size = match op.args.len() {
         2 => {
-            let radius = length(run, op, 1, frame.state.form.scope.size.x, frame)?;
-            Some(DVec3::new(2.0 * radius, 0.0, 2.0 * radius))
+            let radius = length(run, op, 1, now.x, frame)?;
+            Some(DVec3::from_array(has.map(|has| {
+                if has {
+                    2.0 * radius
+                } else {
+                    0.0
+                }
+            })))
         }
         _ => None,
     };
-    insert(op, frame, disk(sides), size, [true, false, true], false)
+    // A disk that stands is the level one with its axes told on: x and z as y and x, or as x and y.
+    let turned = disk(sides).mapped(|point| match across {
+        0 => DVec3::new(point.y, point.z, point.x),
+        1 => point,
+        _ => DVec3::new(point.z, point.x, point.y),
+    });
+    insert(op, frame, turned, size, has, false)
 }
 
 /// `primitiveCylinder()`, `primitiveCylinder(sides)`, `primitiveCylinder(sides, radius, height)`;
@@ -106,7 +121,10 @@ fn insert(
             if size.cmplt(DVec3::ZERO).any() {
                 return Err(Fault::at(op.span, "a radius or height below 0"));
             }
-            let middle = DVec3::new(0.5, 0.0, 0.5) * (scope.size - size);
+            let mut middle = DVec3::new(0.5, 0.0, 0.5) * (scope.size - size);
+            if !has[0] || !has[2] {
+                middle = 0.5 * (scope.size - size);
+            }
             let placed = unit.mapped(|point| point * size + middle);
             let world = placed.mapped(|point| scope.origin + scope.axes * point);
             frame.state.form = Form::around(world, scope.axes, solid);
@@ -124,8 +142,17 @@ fn insert(
     Ok(())
 }
 
+/// The axis across which what is flat lies in a scope: the only one without extent, or y.
+pub fn lies_across(size: DVec3) -> usize {
+    let flat: Vec<usize> = (0..3).filter(|&axis| size[axis] == 0.0).collect();
+    match flat[..] {
+        [only] => only,
+        _ => 1,
+    }
+}
+
 /// Sizes of 0 as the mean of the others, or 1; none along an axis without extent.
-fn filled(size: DVec3, has: [bool; 3]) -> DVec3 {
+pub fn filled(size: DVec3, has: [bool; 3]) -> DVec3 {
     let given: Vec<f64> = size.to_array().into_iter().filter(|s| *s > 0.0).collect();
     let mean = match given.len() {
         0 => 1.0,

@@ -12,7 +12,7 @@ use super::super::run::Run;
 use super::super::value::Value;
 use super::roofs::{edge_number, no_more, optional, reaches, slope_of, Rise};
 use super::standing::upright;
-use super::{number, numbers, positive, value};
+use super::{number, numbers_of_edges, positive, value};
 
 /// The most steps of a round roof, and teeth of a sawtooth roof.
 const MOST_PARTS: f64 = 100.0;
@@ -110,7 +110,7 @@ pub fn per_edge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
     };
     let mut flattest = f64::INFINITY;
     let mut slopes = Vec::with_capacity(count);
-    for angle in numbers(op, &angles, count)? {
+    for angle in numbers_of_edges(run, op, &angles, count)? {
         let is_upright = (angle - 90.0).abs() < 1e-9;
         let slope = if is_upright {
             f64::INFINITY

@@ -1,19 +1,22 @@
 //! Other scopes around the same geometry, and geometry mirrored in its scope.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 use veduta_geometry::solid::{Face, Mesh};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
+use super::super::shape_attributes::pivot;
 use super::super::value::Value;
+use super::transform::turn_in;
 use super::{axes, number, value, word};
-use crate::shape::{turn, Form, Geometry, Scope};
+use crate::shape::{Form, Geometry, Instance, Scope};
 
 /// `alignScopeToAxes()`: the scope upright along the world's axes; `alignScopeToAxes(y)` with that
-/// axis alone as the world's, turned no more than that needs. `object.y` and `object.xyz` mean the
-/// axes of the start shape. What is in it stays where it is.
+/// axis alone as the world's, and x (for `x` it is z) as near to what it was as it can be. `object.y` and
+/// `object.xyz` mean the axes of the start shape. What is in it stays where it is, and the pivot comes
+/// to the scope's origin.
 pub fn align_to_axes(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let name = match op.args.len() {
         0 => "xyz".into(),
@@ -25,27 +28,41 @@ pub fn align_to_axes(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Re
         _ => (DMat3::IDENTITY, name.as_ref()),
     };
     let axes = match axes(op, letters)?[..] {
-        [axis] => aligned(frame.state.form.scope.axes, axis, wanted.col(axis)),
+        [axis] => aligned(frame.state.form.scope.axes, axis, wanted),
         _ => wanted,
     };
-    turn_to(frame, axes);
+    turn_with_pivot(frame, axes);
     Ok(())
 }
 
-/// The frame with one axis along a direction, turned no more than that needs.
-fn aligned(now: DMat3, axis: usize, wanted: DVec3) -> DMat3 {
-    let turn = DQuat::from_rotation_arc(now.col(axis).normalize(), wanted);
-    DMat3::from_quat(turn.normalize()) * now
+/// The frame with one axis along that of another. The axis that is kept as well as may be lies in the
+/// plane across it: z for x, x for the others; where it has no direction there, that of the other frame.
+fn aligned(now: DMat3, axis: usize, wanted: DMat3) -> DMat3 {
+    let up = wanted.col(axis);
+    let kept = if axis == 0 { 2 } else { 0 };
+    let beside = |direction: DVec3| (direction - up * direction.dot(up)).try_normalize();
+    let kept_axis = beside(now.col(kept)).filter(|_| now.col(kept).dot(up).abs() < LEVEL);
+    let kept_axis = kept_axis.unwrap_or(wanted.col(kept));
+    match axis {
+        0 => DMat3::from_cols(up, kept_axis.cross(up), kept_axis),
+        1 => DMat3::from_cols(kept_axis, up, kept_axis.cross(up)),
+        _ => DMat3::from_cols(kept_axis, up.cross(kept_axis), up),
+    }
 }
 
-/// `rotateScope(x, y, z)`: degrees about the scope's axes, x first. What is in it stays where it
+/// What is this near to an axis has no direction across it (cosine).
+const LEVEL: f64 = 1.0 - 1e-12;
+
+/// `rotateScope(x, y, z)`: degrees about the pivot's axes, x first. What is in it stays where it
 /// is, and the scope is fitted to it.
 pub fn rotate_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let mut degrees = DVec3::ZERO;
     for axis in 0..3 {
         degrees[axis] = number(run, op, axis, frame)?;
     }
-    turn_to(frame, frame.state.form.scope.axes * turn(degrees));
+    let scope = frame.state.form.scope;
+    let (_, axes) = pivot(&frame.state, run.first());
+    turn_to(frame, scope.axes * turn_in(&scope, axes, degrees));
     Ok(())
 }
 
@@ -80,6 +97,10 @@ pub fn mirror_along(frame: &mut Frame, signs: DVec3) {
     form.geometry = match &form.geometry {
         Geometry::Nothing => Geometry::Nothing,
         Geometry::Box => Geometry::Box,
+        Geometry::Instance(instance) => Geometry::Instance(Instance {
+            signs: instance.signs * signs,
+            ..instance.clone()
+        }),
         other => {
             let centre = other.mesh().mapped(|unit| (unit - 0.5) * signs + 0.5);
             let outside_in = signs.element_product() < 0.0;
@@ -146,9 +167,13 @@ pub fn align_to_geometry(
     let which = value(run, op, 1, frame)?;
     let edge = match op.args.len() {
         3 => value(run, op, 2, frame)?,
-        _ => Value::text("longest"), // the older form does not say it
+        _ => Value::text("auto"),
     };
-    let (which, edge) = (automatic(which, "any"), automatic(edge, "longest"));
+    // The older form names an edge of the first face, or takes the lowest of all.
+    let (which, edge) = match (op.args.len(), which.number()) {
+        (2, Some(_)) => (Value::Number(0.0), which),
+        _ => (automatic(which, "any"), automatic(edge, "world.lowest")),
+    };
     let mesh = frame.state.form.world_mesh();
     if mesh.is_empty() {
         return Ok(());
@@ -188,7 +213,7 @@ pub fn align_to_geometry(
         "zUp" => DMat3::from_cols(x, normal.cross(x), normal),
         _ => DMat3::from_cols(x, normal, x.cross(normal)),
     };
-    turn_to(frame, axes);
+    turn_with_pivot(frame, axes);
     Ok(())
 }
 
@@ -251,7 +276,7 @@ pub fn align_to_box(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Res
         angle += std::f64::consts::FRAC_PI_2;
     }
     let turn = DMat3::from_axis_angle(DMat3::IDENTITY.col(fixed), angle);
-    turn_to(frame, now * turn);
+    turn_with_pivot(frame, now * turn);
     Ok(())
 }
 
@@ -304,6 +329,13 @@ fn smallest_box(hull: &[[f64; 2]]) -> Option<(f64, [f64; 2])> {
         }
     }
     best.map(|(_, angle, size)| (angle, size))
+}
+
+/// Another frame around the same geometry, and the pivot at its origin, along its axes.
+fn turn_with_pivot(frame: &mut Frame, axes: DMat3) {
+    turn_to(frame, axes);
+    let scope = frame.state.form.scope;
+    frame.state.extra_mut().pivot = Some((scope.origin, scope.axes));
 }
 
 /// Another frame around the same geometry.

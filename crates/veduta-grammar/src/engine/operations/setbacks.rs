@@ -9,7 +9,7 @@ use super::super::run::Run;
 use super::super::selection::{Choosing, REMAINDER};
 use super::super::value::Value;
 use super::components::{run_shapes, selectors};
-use super::{numbers, positive, value};
+use super::{numbers, numbers_of_edges, positive, value};
 use crate::ast::Joining;
 use crate::shape::{connected, Form, Kind, TOLERANCE};
 
@@ -18,14 +18,16 @@ const HALVINGS: usize = 48;
 
 /// `setback(distance) { front : A | all = B | remainder : C }`, `setback(distances) { ... }`: the
 /// edges that the cells select move inwards by the distance (m), or each by its own of an array in
-/// the order of `comp(fe)`; others stand. A cell has the strips along its edges, those that touch
+/// the order of `comp(fe)`; a second argument is the texture layer for selectors such as `uv.left`. Others
+/// stand, and so do those that the array has no number for. A cell has the strips along its edges, those that touch
 /// as one, and `remainder` has what is left of the faces.
 pub fn setback(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let edges = Edges::of(run, op, frame)?;
     let given = value(run, op, 0, frame)?;
     let distances = match given {
         Value::Array(_) => {
-            let each = numbers(op, &given, edges.count())?;
+            let mut each = numbers(run, op, &given)?;
+            each.resize(edges.count(), 0.0);
             edges.of_chosen(|edge| each[edge])
         }
         _ => {
@@ -65,7 +67,8 @@ pub fn per_edge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
     edges.finish(run, op, &pieces, frame)
 }
 
-/// `setbackToArea(area) { ... }`, `setbackToArea(area, least)`, `setbackToArea(area, least, most)`:
+/// `setbackToArea(area) { ... }`, `setbackToArea(area, least)`, `setbackToArea(area, least, most)`, each
+/// also with a texture layer for selectors such as `uv.left`:
 /// as `setback`, with the distance at which that area (m2) of each face remains. Arrays give the
 /// least distance of each edge, to which the same is added, and the most that it may become. A face
 /// that is smaller loses no more than the least.
@@ -75,7 +78,13 @@ pub fn to_area(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     let mut bounds = [vec![0.0; edges.count()], vec![f64::MAX; edges.count()]];
     for index in 1..op.args.len() {
         let given = value(run, op, index, frame)?;
-        bounds[index - 1] = numbers(op, &given, edges.count())?;
+        if index + 1 == op.args.len() && matches!(given, Value::Number(_)) {
+            break; // the texture layer of selectors
+        }
+        if index > bounds.len() {
+            return Err(Fault::at(op.span, "a texture layer is needed last"));
+        }
+        bounds[index - 1] = numbers_of_edges(run, op, &given, edges.count())?;
     }
     let [least, most] = bounds;
     let mut pieces = Vec::new();
@@ -115,6 +124,18 @@ fn area_left(pieces: &Pieces) -> f64 {
         .sum()
 }
 
+/// The texture layer that the last argument names after the first; 0 where it is none.
+fn layer(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<f64, Fault> {
+    let last = op.args.len() - 1;
+    match (last, op.args.last()) {
+        (1.., Some(Arg::Value(..))) => match value(run, op, last, frame)? {
+            Value::Number(layer) => Ok(layer),
+            _ => Ok(0.0),
+        },
+        _ => Ok(0.0),
+    }
+}
+
 /// The edges of a shape's faces, and the cells that select them.
 pub struct Edges {
     pub choosing: Choosing,
@@ -130,7 +151,9 @@ impl Edges {
         run.check_time(op.span)?;
         run.record(None, &frame.state, op.span)?;
         let form = frame.state.form.clone();
-        let choosing = Choosing::of(&form, Kind::FaceEdges, run);
+        let layer = layer(run, op, frame)?;
+        let choosing = Choosing::of(&form, Kind::FaceEdges, run).textured(&frame.state, layer);
+        let choosing = choosing.map_err(|message| Fault::at(op.span, message))?;
         let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
         let mut edges = Self::without_cells(choosing, form.world_mesh());
         for (cell, picked) in chosen.into_iter().enumerate() {

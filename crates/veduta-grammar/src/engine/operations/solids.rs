@@ -8,9 +8,10 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::marks::Maker;
 use super::super::run::Run;
+use super::primitives::{filled, lies_across};
 use super::standing::upright;
 use super::{length, word};
-use crate::shape::{Form, Geometry, Scope};
+use crate::shape::{Form, Geometry, Instance, Scope};
 
 /// `extrude(height)`, `extrude(direction, height)`: faces to prisms along the normal, or `world.up`
 /// (also `world.y`), or another axis of the world or the scope. The scope holds the solid afterwards,
@@ -105,38 +106,63 @@ pub fn reverse(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), 
     let form = &frame.state.form;
     frame.state.form.geometry = match &form.geometry {
         Geometry::Nothing => Geometry::Nothing,
+        Geometry::Instance(instance) => Geometry::Instance(Instance {
+            inside_out: !instance.inside_out,
+            ..instance.clone()
+        }),
         other => Geometry::of(other.mesh().reversed(), other.is_solid()),
     };
     frame.changed();
     Ok(())
 }
 
-/// `primitiveCube()`: a box that fills the scope, `primitiveCube(x, y, z)` of this size. A flat
-/// scope is 1 m high then.
+/// `primitiveCube()`: a box that fills the scope, where a size of 0 is first made the mean of the
+/// others; `primitiveCube(x, y, z)` of this size, in the middle of the scope's floor.
 pub fn cube(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let now = frame.state.form.scope.size;
-    let mut size = DVec3::from_array(now.to_array().map(|s| if s > 0.0 { s } else { 1.0 }));
+    let now = frame.state.form.scope;
+    let mut size = filled(now.size, [true; 3]);
     for axis in 0..op.args.len().min(3) {
-        size[axis] = length(run, op, axis, now[axis], frame)?;
+        size[axis] = length(run, op, axis, now.size[axis], frame)?;
     }
-    frame.state.form.scope.size = size;
+    let aside = match op.args.len() {
+        0 => DVec3::ZERO,
+        _ => DVec3::new(0.5, 0.0, 0.5) * (now.size - size),
+    };
+    frame.state.form.scope = Scope {
+        size,
+        ..now.moved(aside)
+    };
     frame.state.form.geometry = Geometry::Box;
     frame.state.replaced();
     frame.changed();
     Ok(())
 }
 
-/// `primitiveQuad()`: a rectangle in x and z that fills the scope, `primitiveQuad(x, z)` of this
-/// size, seen from above.
+/// A direction without its part along an axis.
+fn beside(mut direction: DVec3, axis: usize) -> DVec3 {
+    direction[axis] = 0.0;
+    direction
+}
+
+/// `primitiveQuad()`: a rectangle that fills the scope, level, or upright where the scope is;
+/// `primitiveQuad(width, length)` of this size, in the middle of the scope's floor or of the flat scope.
 pub fn quad(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let now = frame.state.form.scope.size;
-    let side = |size: f64| if size > 0.0 { size } else { 1.0 };
-    let mut size = DVec3::new(side(now.x), 0.0, side(now.z));
-    for (index, axis) in [0, 2].into_iter().enumerate().take(op.args.len()) {
-        size[axis] = length(run, op, index, now[axis], frame)?;
+    let now = frame.state.form.scope;
+    let across = lies_across(now.size);
+    let axes = (0..3).filter(|&axis| axis != across);
+    let mut size = filled(now.size, [0, 1, 2].map(|axis| axis != across));
+    for (index, axis) in axes.enumerate().take(op.args.len()) {
+        size[axis] = length(run, op, index, now.size[axis], frame)?;
     }
-    frame.state.form.scope.size = size;
-    frame.state.form.geometry = Geometry::Rectangle(1);
+    let aside = match op.args.len() {
+        0 => DVec3::ZERO,
+        _ => beside(0.5 * (now.size - size), across),
+    };
+    frame.state.form.scope = Scope {
+        size,
+        ..now.moved(aside)
+    };
+    frame.state.form.geometry = Geometry::Rectangle(across);
     frame.state.replaced();
     frame.changed();
     Ok(())

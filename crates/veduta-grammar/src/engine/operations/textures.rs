@@ -11,6 +11,7 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
 use super::super::texture_map::{layer, map_of, TextureMap};
+use super::super::value::Value;
 use super::{axes, number, word};
 use crate::shape::Scope;
 
@@ -119,17 +120,15 @@ pub fn tile_uv(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
 }
 
 /// `normalizeUV(layer, uv | uvUniform | u | v, collectiveAllFaces)`: the coordinates of the shape
-/// from 0 to 1; `uvUniform` multiplies both by the same. `separatePerFace` derives for shapes of
-/// one face.
+/// from 0 to 1; `uvUniform` multiplies both by the same. `separatePerFace` does so for shapes of
+/// one face; others are normalized as a whole, and a message says so.
 pub fn normalize(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let map = current(run, op, frame)?;
     let (which, faces) = (word(run, op, 1, frame)?, word(run, op, 2, frame)?);
     let mesh = frame.state.form.world_mesh();
     if faces.as_ref() == "separatePerFace" && mesh.face_count() > 1 {
-        return Err(Fault::at(
-            op.span,
-            "`separatePerFace` does not derive for several faces",
-        ));
+        let told = "normalizeUV: a shape of several faces is normalized as a whole";
+        run.write(&Value::text(told), op.span)?;
     }
     let ranges = [0, 1].map(|axis| range(&map, axis, &mesh.points));
     let over = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 1.0 };

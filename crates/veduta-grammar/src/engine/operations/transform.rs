@@ -7,6 +7,7 @@ use super::super::converting::frame_named;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
+use super::super::shape_attributes::pivot;
 use super::scopes::mirror_along;
 use super::solids::reverse;
 use super::{axes, length, number, word};
@@ -37,7 +38,8 @@ pub fn resize(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     Ok(())
 }
 
-/// `r(x, y, z)`, `r(center, x, y, z)`: degrees about the scope's axes, x first.
+/// `r(x, y, z)`, `r(center, x, y, z)`: degrees about the pivot's axes, x first; the scope's origin
+/// stays (`scopeOrigin`), or its middle (`scopeCenter`).
 pub fn turn_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let first = op.args.len() - 3;
     let about_centre = first == 1 && word(run, op, 0, frame)?.as_ref() == "scopeCenter";
@@ -45,9 +47,20 @@ pub fn turn_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
     for axis in 0..3 {
         degrees[axis] = number(run, op, first + axis, frame)?;
     }
-    let pivot = DVec3::splat(if about_centre { 0.5 } else { 0.0 });
-    place(frame, frame.state.form.scope.turned(turn(degrees), pivot));
+    let fixed = DVec3::splat(if about_centre { 0.5 } else { 0.0 });
+    let scope = frame.state.form.scope;
+    let (_, axes) = pivot(&frame.state, run.first());
+    place(frame, scope.turned(turn_in(&scope, axes, degrees), fixed));
     Ok(())
+}
+
+/// The turn of a scope, in its own frame, by degrees about the axes of another.
+pub fn turn_in(scope: &Scope, axes: DMat3, degrees: DVec3) -> DMat3 {
+    if scope.axes == axes {
+        return turn(degrees); // to the last digit
+    }
+    let own = scope.axes.transpose() * axes;
+    own * turn(degrees) * own.transpose()
 }
 
 /// `translate(mode, frame, x, y, z)`: `rel` by this much along the frame's axes, `abs` to this place in the
@@ -75,11 +88,10 @@ pub fn rotate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         degrees[axis] = number(run, op, 2 + axis, frame)?;
     }
     let scope = frame.state.form.scope;
-    let wanted = match mode.as_ref() {
-        "abs" => axes * turn(degrees),
-        _ => axes * turn(degrees) * axes.transpose() * scope.axes,
+    let by = match mode.as_ref() {
+        "abs" => scope.axes.transpose() * axes * turn(degrees),
+        _ => turn_in(&scope, axes, degrees),
     };
-    let by = scope.axes.transpose() * wanted;
     place(frame, scope.turned(by, DVec3::ZERO));
     Ok(())
 }
