@@ -77,6 +77,11 @@ export class Recorded {
 
   /** Draws what was recorded up to a share of the width, and the models beyond it. */
   draw(renderer: Wiped, share: number, render: () => void): void {
+    // Of most places nothing was recorded: they are not to be drawn twice.
+    if (this.#kept.length === 0) {
+      render();
+      return;
+    }
     const { x: width, y: height } = renderer.getSize(new Vector2());
     const edge = Math.round(share * width);
     renderer.setScissorTest(true);

@@ -39,6 +39,14 @@ class Canvas implements Wiped {
 }
 
 describe("what was recorded", () => {
+  it("costs no second picture where there is none", () => {
+    const recorded = new Recorded([slot(null).slot], async () => await Promise.resolve([]), () => undefined, during(new Fake()));
+    const canvas = new Canvas();
+    let drawn = 0;
+    recorded.draw(canvas, 0.5, () => (drawn += 1));
+    expect([drawn, canvas.isOn]).toEqual([1, false]);
+  });
+
   it("is fetched when it is first wanted, and drawn to the left of the model", async () => {
     const { slot: one, model } = slot("raw/a.glb");
     const record = new Object3D();
