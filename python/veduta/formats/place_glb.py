@@ -203,4 +203,6 @@ def _told(place: Place) -> dict[str, Any]:
     for name in ("title", "description", "author", "licence"):
         if getattr(place, name):
             told[name] = getattr(place, name)
+    if place.languages:
+        told["languages"] = list(place.languages)
     return told

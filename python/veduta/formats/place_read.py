@@ -1,8 +1,8 @@
 """Files of other programs as places: meshes, points, and the buildings of city models.
 
 A material that is named after a class (`window`, `wall.brick`) gives its surfaces that class, as
-Veduta's own writers name them; all other surfaces are `other`. glTF and OBJ are y-up, STL and PLY
-are taken to be z-up.
+Veduta's own writers name them; all other surfaces are `other`. glTF and OBJ are y-up, COLLADA
+says which way is up, STL and PLY are taken to be z-up.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from veduta.formats.building_faces import MOST_CORNERS
+from veduta.formats.dae_read import read_dae_mesh
 from veduta.formats.glb_mesh import read_glb_mesh
 from veduta.formats.gltf_chunks import BROKEN, glb_chunks, glb_content
 from veduta.formats.mesh_glb_read import read_model
@@ -44,6 +45,13 @@ def read_obj_place(path: Path) -> Place:
     """The polygons of an OBJ file, with the colours of its MTL files."""
     place = Place(title=path.stem)
     place.add(_part(read_obj(path, path.parent), path.stem))
+    return place
+
+
+def read_dae_place(path: Path) -> Place:
+    """The polygons of a COLLADA file's scene, with the colours of its materials."""
+    place = Place(title=path.stem)
+    place.add(_part(read_dae_mesh(path, MOST_CORNERS), path.stem))
     return place
 
 

@@ -47,6 +47,7 @@ _USD = tuple(kind for kind in _SCENE if kind != MOTION)
 _PLAIN = (TEXTURES, *_SCENE)
 _CITY = (COLOURS, *_PLAIN)
 _MAP = (SURFACES, TOURS, *_AROUND)
+_POINTS = (SURFACES, CLASSES, TOURS, CAMERAS, WALKS, ANIMALS)
 ROWS: tuple[tuple[str, str, str, str, tuple[str, ...]], ...] = (
     # suffix, name for --to, what it is, who writes it, what it has no word for
     (".glb", "glb", "glTF 2.0, one file", "place_glb:write_place_glb", _AROUND),
@@ -75,12 +76,15 @@ ROWS: tuple[tuple[str, str, str, str, tuple[str, ...]], ...] = (
         (COLOURED_CORNERS, *_SCENE),
     ),
     (".ply", "ply", "PLY mesh with colours", "place_ply:write_ply", _PLAIN),
+    (".x3d", "x3d", "X3D 4.0, textures in the file", "place_x3d:write_x3d", _SCENE),
+    (".laz", "laz", "LAZ 1.4 of the points", "place_laz:write_place_laz", _POINTS),
 )
 
 
 READERS = {
     ".glb": "place_read:read_glb_place",
     ".obj": "place_read:read_obj_place",
+    ".dae": "place_read:read_dae_place",
     ".stl": "place_read:read_trimesh_place",
     ".ply": "place_read:read_trimesh_place",
     ".gml": "city_place:read_city_place",

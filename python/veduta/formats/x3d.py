@@ -111,10 +111,11 @@ class X3dScene:
         self._looks[key] = look.attrib["DEF"]
         self._material(look, material, glows=glows)
 
-    def appearance(self, shape: Element, material: Material) -> None:
-        """How a shape of a mesh looks."""
-        look = self.node(shape, "Appearance", f"look-{material.name}")
+    def appearance(self, shape: Element, material: Material, name: str = "") -> str:
+        """How a shape of a mesh looks; the name under which another can USE it."""
+        look = self.node(shape, "Appearance", f"look-{name or material.name}")
         self._material(look, material, glows=True)
+        return look.attrib["DEF"]
 
     def _material(self, look: Element, material: Material, *, glows: bool) -> None:
         texture = material.texture

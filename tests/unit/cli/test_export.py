@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import laspy
 import numpy as np
 import pytest
 
@@ -64,7 +65,7 @@ def wall(tmp_path: Path) -> Path:
     return saved(place, tmp_path / "wall")
 
 
-@pytest.mark.parametrize("suffix", sorted({*formats()} - {".ply"}))
+@pytest.mark.parametrize("suffix", sorted({*formats()} - {".ply", ".laz"}))
 def test_a_place_of_points_alone_makes_no_empty_scene(
     suffix: str, points: Path, tmp_path: Path
 ) -> None:
@@ -85,6 +86,22 @@ def test_points_alone_are_written_as_ply(
     assert run([str(points), str(tmp_path / "a.ply")]) == 0
     assert read_points(tmp_path / "a.ply")[0].tolist() == np.eye(3).tolist()
     assert "not in it" not in capsys.readouterr().out
+
+
+def test_the_points_of_a_place_as_laz(
+    points: Path, wall: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run([str(points), str(tmp_path / "a.laz")]) == 0
+    found = laspy.read(tmp_path / "a.laz")
+    assert np.asarray(found.xyz) == pytest.approx(np.eye(3), abs=1e-6)
+    assert np.asarray(found.red).tolist() == [9 * 257] * 3
+    assert "not in it" not in capsys.readouterr().out
+    assert run([str(wall), str(tmp_path / "wall.laz")]) == 0
+    assert "all of a part but its outline" in capsys.readouterr().out
+    place = Place.load(wall)
+    place.clouds.clear()
+    with pytest.raises(InputError, match=r"b\.laz: the place has no points"):
+        place.write(tmp_path / "b.laz")
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,10 @@
-"""A place as USD and COLLADA, opened again by USD's own reader and by lxml."""
+"""A place as USD, COLLADA and X3D, opened again by USD's own reader and as XML."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from place_sample import area_of, corners_of, sample_place
 from veduta.place.material import Material
 from veduta.place.mesh import Mesh
 from veduta.place.place import Place, Standing
+from veduta.place.semantics import SemanticClass
 from veduta.run.errors import InputError
 
 pxr = pytest.importorskip("pxr")
@@ -124,3 +127,50 @@ def test_collada_has_the_same_triangles(place: Place, tmp_path: Path) -> None:
     np.testing.assert_allclose(every.max(axis=0), own.max(axis=0), atol=1e-4)
     for image in root.iterfind(".//c:image/c:init_from", COLLADA):
         assert (tmp_path / image.text).is_file()
+
+
+def test_collada_comes_back(place: Place, tmp_path: Path) -> None:
+    place.write(tmp_path / "place.dae")
+    again = Place.load(tmp_path / "place.dae")
+    assert area_of(again) == pytest.approx(area_of(place), rel=1e-4)
+    np.testing.assert_allclose(
+        corners_of(again).max(axis=0), corners_of(place).max(axis=0), atol=1e-4
+    )
+    assert {SemanticClass.WALL, SemanticClass.WINDOW, SemanticClass.ROOF} <= _classes(again)
+    assert _classes(again) <= _classes(place)
+
+
+def _classes(place: Place) -> set[SemanticClass]:
+    codes = [one.content.features.class_code for one in place.parts.values()]
+    return {SemanticClass.of_code(code) for code in np.unique(np.concatenate(codes)).tolist()}
+
+
+def test_x3d_has_the_same_triangles(place: Place, tmp_path: Path) -> None:
+    place.write(tmp_path / "place.x3d")
+    root = ElementTree.parse(tmp_path / "place.x3d").getroot()
+    looks = [look.get("DEF") for look in root.iter("Appearance") if look.get("DEF")]
+    assert {"look-wall", "look-window", "look-door", "look-roof"} <= set(looks)
+    assert len(looks) == len(set(looks))
+    used = {look.get("USE") for look in root.iter("Appearance")} - {None}
+    assert used <= set(looks)
+    found, corners = 0.0, []
+    for faces in root.iter("IndexedTriangleSet"):
+        points = _floats(faces.find("Coordinate"), "point")
+        normals = _floats(faces.find("Normal"), "vector")
+        numbers = np.array(faces.attrib["index"].split(), dtype=int).reshape(-1, 3)
+        assert len(points) == len(normals)
+        assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0, abs=1e-3)
+        found += area(points, numbers)
+        # y is up there: back to x east, y north, z up.
+        corners.append(np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1))
+        facing = np.cross(*(points[numbers[:, n]] - points[numbers[:, 0]] for n in (1, 2)))
+        assert (np.einsum("ij,ij->i", facing, normals[numbers[:, 0]]) > -1e-6).all()
+    assert found == pytest.approx(area_of(place), rel=1e-3)
+    own = corners_of(place)
+    every = np.concatenate(corners)
+    np.testing.assert_allclose(every.max(axis=0), own.max(axis=0), atol=1e-3)
+    np.testing.assert_allclose(every.min(axis=0), own.min(axis=0), atol=1e-3)
+
+
+def _floats(node: Any, field: str) -> Any:
+    return np.array(node.attrib[field].replace(",", " ").split(), dtype=float).reshape(-1, 3)

@@ -1,0 +1,23 @@
+"""The points of a place as LAZ: all its clouds in one file, in the place's own CRS."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from veduta.formats.laz import write_laz
+from veduta.place.place import Place
+from veduta.run.atomic import atomic_write
+from veduta.run.errors import InputError
+
+
+def write_place_laz(place: Place, path: Path) -> None:
+    """Write the points; InputError where the place has none."""
+    if not place.clouds:
+        raise InputError(path, "the place has no points", "Choose a format for surfaces.")
+    points = np.concatenate([cloud.points_m for cloud in place.clouds]).astype(np.float64)
+    colours = np.concatenate([cloud.colours for cloud in place.clouds])
+    east, north, up = place.origin_m
+    with atomic_write(path) as temporary:
+        write_laz(points, colours, temporary, crs=place.crs, origin_m=(east, north, up))
