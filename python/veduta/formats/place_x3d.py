@@ -41,8 +41,8 @@ def _add(
     else:
         looks[look.name] = scene.appearance(made, look.material, look.name)
     faces = scene.node(made, "IndexedTriangleSet", index=corners.reshape(-1), solid=False)
-    scene.node(faces, "Coordinate", point=y_up(own.positions_m[used]))
-    scene.node(faces, "Normal", vector=y_up(own.normals[used]))
+    scene.node(faces, "Coordinate", point=y_up(own.positions_m[used].astype(np.float32)))
+    scene.node(faces, "Normal", vector=y_up(own.normals[used].astype(np.float32)))
     if own.colours is not None:
         scene.node(faces, "Color", color=own.colours[used].astype(np.float64) / 255.0)
     if look.material.texture is not None:
