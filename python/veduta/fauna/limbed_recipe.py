@@ -21,8 +21,8 @@ from veduta.fauna.read.limbed_coat import coat_of_plane
 from veduta.fauna.read.limbed_document import described_limbs, scaled_animal, with_second_view
 from veduta.fauna.read.limbless import silhouettes_in
 from veduta.fauna.read.overlap import overlap
-from veduta.fauna.read.silhouettes import Silhouettes
-from veduta.fauna.recipe import Record, second_view, still_footage
+from veduta.fauna.read.silhouettes import Silhouettes, frame_scores
+from veduta.fauna.recipe import Record, second_view, still_footage, tell_scores
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
@@ -81,6 +81,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         frames=len(footage.frames),
         used=len(found.rows),
         left_out=left_out,
+        scores=frame_scores(found, footage.number),
     )
     with work.step("gait") as step:
         animal = described_limbs(seen, plan, record.path.stem, source, footage.frame_s, overlaps,
@@ -92,6 +93,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
     with work.step("coat"):
         coat = _coat(footage, found, seen, plan, joints)
     _tell(work, footage, found, seen, joints, overlaps, animal)
+    tell_scores(work, source.scores)
     return ReadLimbed(animal.model_copy(update={"coat": COAT}), coat)
 
 

@@ -23,8 +23,9 @@ from veduta.fauna.read.registered import CameraLooks, stilled
 from veduta.fauna.read.second_silhouettes import SilhouettePictures, read_second_view
 from veduta.fauna.read.second_view import SecondView
 from veduta.fauna.read.side_document import describe_from_side
+from veduta.fauna.read.silhouettes import frame_scores
 from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
-from veduta.fauna.seen_pictures import second_picture, silhouettes_picture
+from veduta.fauna.seen_pictures import scores_picture, second_picture, silhouettes_picture
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
@@ -110,14 +111,16 @@ def _described(
     tracked: Tracked,
     options: FaunaOptions,
     areas: NDArray[np.float64] | None = None,
+    scores: list[tuple[int, float]] | None = None,
 ) -> Described:
-    """areas: (t,) of the silhouettes of an animal that is seen from the side."""
+    """areas: (t,) of the silhouettes of an animal that is seen from the side. scores: of frames."""
     path = record.path
     source = Source(
         file=path.name,
         sha256=file_digest(path) if path.is_file() else "",
         frames=max(1, len(tracked.points) + len(tracked.left_out)),
         used=max(1, len(tracked.points)),
+        scores=scores or [],
     )
     second = second_view(work, record)
     if areas is None:
@@ -173,12 +176,26 @@ def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
         seen = Seen(found, axes, background)
         tracked = tracked_axes(footage, seen)
         areas = _areas(footage, seen, tracked) if options.animal.view == "side" else None
-        described = _described(work, record, tracked, options, areas)
+        scores = frame_scores(found, footage.number)
+        described = _described(work, record, tracked, options, areas, scores)
         step.counts["used"] = described.animal.source.used
     with work.step("coat"):
         read = _with_coat(footage, described)
     _tell_silhouettes(work, footage, seen, read.described)
+    tell_scores(work, scores)
     return read
+
+
+def tell_scores(work: Work, scores: list[tuple[int, float]]) -> None:
+    """How sure the silhouette in each frame is."""
+    work.measure("silhouette_score_worst", min(score for _, score in scores))
+    work.picture(
+        "How sure each silhouette is",
+        f"frames {scores[0][0]} to {scores[-1][0]}: a bar of full height is as large as in the"
+        " others, with nothing else beside it; a gap is a frame that was left out",
+        scores_picture(scores),
+        wide=True,
+    )
 
 
 def _bends(options: FaunaOptions) -> bool:

@@ -13,6 +13,7 @@ from veduta.fauna.read.limbless import Seen
 _PANELS = 6
 _SIDE = 380
 _OUTLINE, _AXIS = (214, 48, 40), (40, 190, 70)
+_SURE = (90, 140, 200)
 
 
 def second_picture(mask: NDArray[np.bool_]) -> NDArray[np.uint8]:
@@ -25,6 +26,22 @@ def second_picture(mask: NDArray[np.bool_]) -> NDArray[np.uint8]:
     outlines, _ = cv2.findContours(large, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     cv2.drawContours(panel, outlines, -1, _OUTLINE, 2, cv2.LINE_AA)
     return panel
+
+
+def scores_picture(
+    scores: list[tuple[int, float]], width: int = 900, height: int = 160
+) -> NDArray[np.uint8]:
+    """A bar for each frame that shows the animal, as high as its silhouette is sure; a gap is a
+    frame that was left out.
+    """
+    pixels = np.full((height, width, 3), 255, dtype=np.uint8)
+    first, last = scores[0][0], scores[-1][0]
+    step = width / max(last - first + 1, 1)
+    for frame, score in scores:
+        left = int((frame - first) * step)
+        right = max(left + 1, int((frame - first + 1) * step) - (1 if step > 3.0 else 0))
+        pixels[height - round(score * (height - 1)) :, left:right] = _SURE
+    return pixels
 
 
 def silhouettes_picture(

@@ -151,6 +151,10 @@ def test_a_folder_of_frames_becomes_a_swimming_fish(tmp_path: Path) -> None:
     animal = json.loads((out / "animal.json").read_text())
     assert any("how far it swings" in doubt for doubt in animal["doubts"])
     assert animal["length"]["metres"] == 0.4
+    scores = animal["source"]["scores"]
+    assert [frame for frame, _ in scores] == list(range(30))
+    assert all(0.8 < score <= 1.0 for _, score in scores)
+    assert report["measures"]["silhouette_score_worst"] == min(score for _, score in scores)
     coat = np.asarray(Image.open(out / "coat.png"))
     # It goes to the right: the left flank, the upper half, is invented.
     assert (coat[:60, 256, 3] < 255).all()

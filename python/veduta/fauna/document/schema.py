@@ -38,6 +38,12 @@ class Source(Record):
     frames: int = Field(ge=1)
     used: int = Field(ge=1)
     left_out: list[str] = Field(default=[], max_length=100_000, description="frames, and why")
+    scores: list[tuple[int, Share]] = Field(
+        default=[],
+        max_length=100_000,
+        description="numbers of the frames that show it, and how sure its silhouette is: as large"
+        " as in the others, and nothing else beside it",
+    )
 
 
 class Length(Record):

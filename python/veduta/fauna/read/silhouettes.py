@@ -112,6 +112,17 @@ def silhouettes_of(
     return Silhouettes(masks[good], np.flatnonzero(good), score[good], tuple(sorted(left_out)))
 
 
+def frame_scores(silhouettes: Silhouettes, number: NDArray[np.int64]) -> list[tuple[int, float]]:
+    """Of each good frame its number in the record and how sure its silhouette is.
+
+    number: (t,) of all frames.
+    """
+    return [
+        (int(frame), round(float(score), 4))
+        for frame, score in zip(number[silhouettes.rows], silhouettes.score, strict=True)
+    ]
+
+
 def _require_one_animal(
     seen: Masks, seconds: NDArray[np.float64], cut: Masks, looks: SilhouetteLooks, what: str
 ) -> None:
