@@ -30,6 +30,8 @@ from veduta.plan.pages import find_drawings
 from veduta.run.errors import NotFoundError
 from veduta.synthetic.plans.brochure import brochure_page
 from veduta.synthetic.plans.canvas import Image as Picture
+from veduta.synthetic.plans.japanese import japanese_flat
+from veduta.synthetic.plans.labelled import labelled_sheet
 from veduta.synthetic.plans.measured import measured_sheet
 from veduta.synthetic.plans.strangers import strangers_sheet
 from veduta.synthetic.plans.truth_file import SheetTruth
@@ -41,6 +43,8 @@ FAMILIES: Mapping[str, Callable[[int], tuple[Picture, list[SheetTruth]]]] = {
     "brochure": brochure_page,
     "measured": measured_sheet,
     "working": working_drawing,
+    "japanese": japanese_flat,
+    "labelled": labelled_sheet,
 }
 SEEDS = range(31_000, 31_012)
 TOLERANCE = 0.01

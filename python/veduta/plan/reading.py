@@ -26,11 +26,13 @@ from veduta.plan.openings.classify import PLAIN_DOORS, PLAIN_WIDTH, Judged, judg
 from veduta.plan.openings.curved_gaps import gaps_on_circles
 from veduta.plan.openings.evidence import Views
 from veduta.plan.openings.gaps import find_gaps, trimmed
+from veduta.plan.openings.labelled import Labels, said_window, window_labels, with_said
 from veduta.plan.openings.leaf_pieces import free_leaves, leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
+from veduta.plan.openings.ticks import tick_pieces
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
@@ -246,21 +248,24 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
     if known is None:
         found = with_bends(found, sheet.faint)
     views = Views(sheet)
-    judged = judge_gaps(found, views)
+    said = Labels(window_labels(texts), USUAL_DOOR * found.thin_px, cleaned.line_px)
+    judged = judge_gaps(found, views, said)
     pen_px = found.thin_px
     for _ in range(SIZINGS):
         if (sized := sized_by_doors(found, judged, pen_px)) is found:
             break
         found = sized
-        judged = judge_gaps(found, views)
-    leaves = leaf_pieces(found.pieces, judged)
+        said = replace(said, door_px=USUAL_DOOR * found.thin_px)
+        judged = judge_gaps(found, views, said)
+    said = replace(said, door_px=usual_door(judged) or said.door_px)
+    leaves = leaf_pieces(found.pieces, judged) | tick_pieces(found, views)
     if known is None and way.drawing == "filled":
         door_px = usual_door(judged) or USUAL_DOOR * found.thin_px
         leaves |= free_leaves(found.pieces, found.thin_px, door_px)
     if leaves:
         walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
         found = replace(found, pieces=walls)
-        judged = judge_gaps(found, views)
+        judged = judge_gaps(found, views, said)
     axes = axes_of([*found.pieces, *found.curved], judged)
     # What a vector file says of its openings goes before what its picture looks like; in walls that
     # are told by their colour, what else is drawn in them is lines of axes.
@@ -268,7 +273,7 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
     whole = mended(axes, found, sheet, texts, by_lines=not told, thin=thin)
     sky = open_sky(whole.axes, found.thin_px, texts)
     axes = whole.axes if told else with_unbroken(whole.axes, sheet, found.thin_px, sky)
-    axes = settled(axes, found.thin_px, sky)
+    axes = with_said(settled(axes, found.thin_px, sky), said, sheet, sky)
     laid = known.settle(axes) if known else axes
     return drawn_from(cleaned, found, laid, texts, whole.notes)
 
@@ -301,7 +306,7 @@ def sized_by_doors(found: Found, judged: Sequence[Judged], pen_px: float) -> Fou
     return found if thin_px == found.thin_px else replace(found, thin_px=thin_px, sized=True)
 
 
-def judge_gaps(found: Found, views: Views) -> list[Judged]:
+def judge_gaps(found: Found, views: Views, said: Labels) -> list[Judged]:
     """All interruptions of walls that are openings; twice, as what is outdoors depends on them."""
     ahead = [
         *find_gaps(found.pieces, found.curved),
@@ -320,4 +325,14 @@ def judge_gaps(found: Found, views: Views) -> list[Judged]:
         judge(gap, view, found.thin_px, out, plain)
         for gap, view, out in zip(gaps, seen, outer, strict=True)
     ]
-    return [one for one in second if one is not None]
+    labelled = [
+        window if out and (one is None or one.hinge == "none") else None
+        for gap, one, out in zip(gaps, second, outer, strict=True)
+        for window in [said_window(gap, said)]
+    ]
+    return [one for one in map(_said_first, labelled, second) if one is not None]
+
+
+def _said_first(said: Judged | None, drawn: Judged | None) -> Judged | None:
+    """A window that is drawn stays as it is drawn; else what a label says."""
+    return drawn if said is None or (drawn is not None and drawn.kind == "window") else said

@@ -51,6 +51,19 @@ def test_a_shadow_that_ends_softly_is_no_field() -> None:
     assert np.array_equal(without_fields(shadow), shadow)
 
 
+def test_grey_walls_around_a_floor_of_a_strong_tint_stay() -> None:
+    pixels = np.full((600, 900, 3), 255, np.uint8)
+    cv2.rectangle(pixels, (250, 160), (650, 440), GREY, -1)
+    cv2.rectangle(pixels, (262, 172), (638, 428), (196, 222, 160), -1)
+    cv2.rectangle(pixels, (440, 172), (451, 428), GREY, -1)
+    for wall in ((250, 160), (650, 440)), ((262, 172), (638, 428)):
+        cv2.rectangle(pixels, *wall, (0, 0, 0), 2)
+    cleared = without_fields(pixels)
+    assert (cleared[200:400, 300:420] == 255).all()
+    assert (cleared[200:400, 443:449] == np.array(GREY)).all()
+    assert (cleared[200:400, 254:258] == np.array(GREY)).all()
+
+
 def thick_house(wall_px: int, tone: tuple[int, int, int], inner_px: int = 15) -> np.ndarray:
     """Three rooms within filled walls, two doors and two windows in black lines, 1000 x 800 px."""
     pixels = np.full((800, 1000, 3), 255, np.uint8)

@@ -12,6 +12,8 @@ from veduta.synthetic.plans import curves
 from veduta.synthetic.plans.brochure import brochure_page
 from veduta.synthetic.plans.canvas import Image
 from veduta.synthetic.plans.hands import HANDS, hand_drawn
+from veduta.synthetic.plans.japanese import japanese_flat
+from veduta.synthetic.plans.labelled import labelled_sheet
 from veduta.synthetic.plans.measured import measured_sheet
 from veduta.synthetic.plans.truth_file import SheetTruth
 from veduta.synthetic.plans.working_drawing import working_drawing
@@ -25,7 +27,7 @@ def any_hand(seed: int) -> tuple[Image, list[SheetTruth]]:
     return hand_drawn(seed, HANDS[seed % len(HANDS)])
 
 
-@pytest.mark.parametrize("make", [*MAKERS, any_hand])
+@pytest.mark.parametrize("make", [*MAKERS, any_hand, japanese_flat, labelled_sheet])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_openings_lie_in_their_walls_clear_of_each_other(make: Make, seed: int) -> None:
     for truth in make(seed)[1]:
@@ -39,7 +41,7 @@ def test_openings_lie_in_their_walls_clear_of_each_other(make: Make, seed: int) 
             assert flat == sorted(flat)
 
 
-@pytest.mark.parametrize("make", [*MAKERS, any_hand])
+@pytest.mark.parametrize("make", [*MAKERS, any_hand, japanese_flat, labelled_sheet])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_every_room_is_reached(make: Make, seed: int) -> None:
     for truth in make(seed)[1]:

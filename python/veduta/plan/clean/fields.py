@@ -26,6 +26,8 @@ class FieldRule:
     much: all fields together cover so much of the sheet at least.
     alike: what is connected with a field, near it, and differs by so little is of it ...
     thin: ... if it is not thinner than this part of `broad`: panes are no lawn.
+    band: what stands out darker in a field, is thicker than this part of `broad`, and paler than
+    ink, is a grey wall beside a coloured floor: it stays as it is.
     hued, same: a colour whose channels are so far apart is a lawn, and goes on where they differ by
     so little (0 to 255), however narrow it is.
     beyond: ink in a field is darker than it by this part of what is left to the darkest.
@@ -49,6 +51,7 @@ class FieldRule:
     much: float = 0.02
     alike: float = 0.14
     thin: float = 0.2
+    band: float = 0.08
     hued: float = 60.0
     same: float = 24.0
     beyond: float = 0.4
@@ -76,7 +79,7 @@ def without_fields(pixels: NDArray[np.uint8], rule: FieldRule = RULE) -> NDArray
         return pixels
     darkest = float(np.percentile(dark[seen], 98))
     smooth = np.asarray(cv2.GaussianBlur(dark, (0, 0), rule.grain_px), np.float32)
-    field, tone = _fields(smooth, seen, darkest, rule)
+    field, tone = _fields(dark, smooth, darkest, rule)
     if field.mean() < rule.much:
         return pixels
     field = _sharp(field, smooth, tone, rule)
@@ -95,15 +98,17 @@ def without_fields(pixels: NDArray[np.uint8], rule: FieldRule = RULE) -> NDArray
 
 
 def _fields(
-    smooth: NDArray[np.float32], seen: NDArray[np.bool_], darkest: float, rule: FieldRule
+    dark: NDArray[np.float32], smooth: NDArray[np.float32], darkest: float, rule: FieldRule
 ) -> tuple[NDArray[np.bool_], NDArray[np.float32]]:
     """Where fields are, and how dark each is."""
+    seen = dark > LEAST_CONTRAST
     rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
     longer = float(max(np.ptp(rows), np.ptp(columns)))
     side = max(3, round(rule.broad * longer))
     square = np.ones((side, side), np.uint8)
     level = np.asarray(cv2.morphologyEx(smooth, cv2.MORPH_OPEN, square), np.float32)
     core = (level > rule.dark) & (level < rule.pale * darkest)
+    core &= ~_grey(dark, level, side, darkest, rule)
     around = cv2.dilate(np.where(core, level, np.float32(0.0)), square)
     rim = (around > 0) & (np.abs(smooth - around) < rule.alike)
     least = np.ones((2 * round(rule.thin * side / 2.0) + 1,) * 2, np.uint8)
@@ -113,6 +118,25 @@ def _fields(
     tone = np.where(core, level, around).astype(np.float32)
     field = np.isin(labels, own[own > 0])
     return field & ~_walls(field, smooth, longer, rule), tone
+
+
+def _grey(
+    dark: NDArray[np.float32],
+    level: NDArray[np.float32],
+    side: int,
+    darkest: float,
+    rule: FieldRule,
+) -> NDArray[np.bool_]:
+    """Bands that are darker than what is broad around them, and paler than ink; to their edges.
+
+    Of the tone as it is: letters would be grey if smoothed.
+    """
+    ink = level + rule.beyond * (darkest - level)
+    darker = dark > level + rule.alike
+    least = np.ones((2 * round(rule.band * side / 2.0) + 1,) * 2, np.uint8)
+    band = cv2.morphologyEx((darker & (dark < ink)).astype(np.uint8), cv2.MORPH_OPEN, least)
+    reach = np.ones((2 * round(2.0 * rule.grain_px) + 1,) * 2, np.uint8)
+    return np.asarray((cv2.dilate(band, reach) > 0) & darker, np.bool_)
 
 
 def _walls(

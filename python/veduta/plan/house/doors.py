@@ -169,25 +169,34 @@ class _Door:
             self._mover(leaf.name, polygons, (leaf.start_m, 0.0), 0.0, shift)
 
     def _fold(self) -> None:
-        """Two leaves that fold onto each other at one end."""
-        at_end = self.hole.hinge == "end"
+        """Two leaves that fold onto each other at one end, or two at each."""
         middle = (self.first + self.last) / 2.0
+        if self.hole.hinge == "both":
+            self._fold_part(self.first, middle - GAP_M / 2, at_end=False, name="left ")
+            self._fold_part(middle + GAP_M / 2, self.last, at_end=True, name="right ")
+        else:
+            self._fold_part(self.first, self.last, at_end=self.hole.hinge == "end")
+
+    def _fold_part(self, start: float, end: float, *, at_end: bool, name: str = "") -> None:
+        """Two leaves between two places along the wall, at the end of which they hang."""
+        middle = (start + end) / 2.0
         face = self.side * self.hole.line.half_m
-        first = Leaf("hung", middle, self.last, self.last, -self.side) if at_end else Leaf(
-            "hung", self.first, middle, self.first, self.side
+        hung, folded = f"{name}hung", f"{name}folded"
+        first = Leaf(hung, middle, end, end, -self.side) if at_end else Leaf(
+            hung, start, middle, start, self.side
         )  # fmt: skip
-        second = Leaf("folded", self.first, middle, middle, self.side) if at_end else Leaf(
-            "folded", middle, self.last, middle, -self.side
+        second = Leaf(folded, start, middle, middle, self.side) if at_end else Leaf(
+            folded, middle, end, middle, -self.side
         )  # fmt: skip
         self._swing(first)
         polygons = self._leaf(second, face - self.side * LEAF_M, face)
-        length = middle - self.first
+        length = middle - start
         way = length * (
             self.side * self.hole.leftward + (1.0 if at_end else -1.0) * self.hole.along
         )
         way = way + (1.0 if not at_end else -1.0) * LEAF_M * self.hole.along
         shift = (float(way[0]), float(way[1]), 0.0)
-        self._mover("folded", polygons, (middle, face), second.turn * TURN_RAD, shift)
+        self._mover(folded, polygons, (middle, face), second.turn * TURN_RAD, shift)
 
     def _lift(self) -> None:
         """One leaf that turns up about its upper edge."""

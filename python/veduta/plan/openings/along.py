@@ -234,16 +234,20 @@ def _without(axis: Axis, own: NDArray[np.float64]) -> NDArray[np.float64]:
 def _opening(
     axis: Axis, span: tuple[int, int], sheet: Sheet, thin_px: float, sky: BaseGeometry
 ) -> OnAxis | None:
-    """What is drawn in a stretch of wall that leads outdoors, if it is an opening."""
+    """What is drawn in a stretch of wall, if it is an opening.
+
+    Between rooms it is a door of panels that slide: what else differs there may be anything.
+    """
     line, near = axis.line, BESIDE * axis.line.thickness_px
     low, high = max(float(span[0]), near), min(float(span[1]), line.length_px - near)
     taken = any(one.first - near < high and low < one.last + near for one in axis.openings)
-    if taken or high - low < LEAST_WIDTH * thin_px or not leads_out(line, (low, high), sky):
+    if taken or high - low < LEAST_WIDTH * thin_px:
         return None
     part = line.part(low, high)
     gap = Gap(-1, True, -1, False, part.start, part.end, line.thickness_px, part.end, part.bulge)
-    seen = judge(gap, look_at(gap, sheet), thin_px, True)
-    if seen is None or seen.kind == "gap":
+    outer = leads_out(line, (low, high), sky)
+    seen = judge(gap, look_at(gap, sheet), thin_px, outer)
+    if seen is None or seen.kind == "gap" or not (outer or seen.type == "sliding"):
         return None
     return OnAxis(seen, low, high, along=True)
 
@@ -285,11 +289,23 @@ def changed_stretches(
         inside = own[:, low + 2 : high - 2]
         if high - low < max(least_px, 6):
             continue
-        stray = np.abs(inside - np.median(inside, axis=1)[:, None]).mean()
+        stray = min(_stray(inside), _stray_of_halves(inside))
         drawn = _pierced(inside, usual, level) or (bars and _barred(inside, usual, level))
         if stray <= STEADY * level and drawn:
             found.append((int(low), int(high)))
     return found
+
+
+def _stray(inside: NDArray[np.float64]) -> float:
+    """How much the ink of a stretch (rows, columns) strays along it, in the mean."""
+    return float(np.abs(inside - np.median(inside, axis=1)[:, None]).mean())
+
+
+def _stray_of_halves(inside: NDArray[np.float64]) -> float:
+    """The same of each half, as two panels beside each other; they overlap in the middle."""
+    count = inside.shape[1]
+    parts = inside[:, : round(0.44 * count)], inside[:, round(0.56 * count) :]
+    return max(_stray(part) if part.size else np.inf for part in parts)
 
 
 def _pierced(inside: NDArray[np.float64], usual: NDArray[np.float64], level: float) -> bool:

@@ -17,6 +17,8 @@ LEAST_FOLD = 0.6
 LEAST_BARE, BARE_SCORE = 0.75, 0.75
 """A leaf alone is drawn at least so well, and is less sure by this factor: a line may be another
 thing's."""
+LEAST_PANEL = 0.9
+"""A panel before the wall is drawn at least so well."""
 LEAST_TONE = 0.05
 CENTRED = 0.3
 """Panels that slide past each other meet in a line so near to the wall's middle (half
@@ -37,8 +39,9 @@ STUB = 0.4
 WIDEST_DOOR = 22.0
 """Leaves are at most so many (thin) wall thicknesses wide, both of a double door together."""
 
-WIDEST_LEAFLESS = 16.0
-"""Doors between rooms that are drawn without a leaf."""
+WIDEST_LEAFLESS = 20.0
+"""Doors between rooms that are drawn without a leaf: panels of 0.9 m, two of them in a wall of
+0.1 m."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,7 @@ def _drawn(
     door = _door(gap, seen) if gap.width_px < WIDEST_DOOR * thin_px else None
     if door is not None:
         return door
-    if slides(seen):
+    if slides(seen) or (seen.meets and outer is False):
         return Judged(gap, "door", "sliding", "none", "none", 0.7)
     if seen.lines or seen.tone > LEAST_TONE:
         if outer is False and gap.width_px < WIDEST_LEAFLESS * thin_px:
@@ -88,6 +91,8 @@ def _drawn(
         return Judged(gap, "window", window_type(seen), "none", "none", _window_score(seen))
     stub_px = float(np.hypot(*(gap.far - gap.end)))
     to_side = gap.to_side and stub_px < STUB * gap.thickness_px
+    if seen.panel >= LEAST_PANEL and gap.width_px < WIDEST_DOOR * thin_px:
+        return Judged(gap, "door", "sliding", "none", "none", 0.7)
     limit = PLAIN_TO_SIDE if to_side else widest_plain
     if gap.width_px > limit * thin_px:
         return None
@@ -134,7 +139,9 @@ def window_type(seen: Evidence) -> OpeningType:
 def _door(gap: Gap, seen: Evidence) -> Judged | None:
     """By its leaves; None where there are none."""
     if seen.folds and (fold := seen.folds[0]).score >= LEAST_FOLD:
-        hinge = _hinge(fold.hinge_at_start)
+        hinge: Literal["start", "end", "both"] = (
+            "both" if fold.both else _hinge(fold.hinge_at_start)
+        )
         return Judged(gap, "door", "folding", hinge, _side(fold.side, False), fold.score)
     good = [arc for arc in seen.arcs if arc.score >= LEAST_ARC]
     if good:

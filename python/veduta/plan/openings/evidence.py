@@ -25,6 +25,7 @@ from veduta.plan.openings.lines import (
     pocket_share,
     shade,
 )
+from veduta.plan.openings.panels import find_panel, meets
 from veduta.plan.openings.strip import Sheet, cut_strip
 
 SURE_ARC = 0.85
@@ -54,6 +55,8 @@ class Evidence:
     leaf_px: float
     leaf_lines: bool = False
     bare: tuple[Arc, ...] = ()
+    panel: float = 0.0
+    meets: bool = False
 
     @property
     def inner(self) -> tuple[float, ...]:
@@ -76,6 +79,7 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
     doubtful = arcs[0].score < SURE_ARC
     lines = full_lines(strip)
     empty = float((middle < 0.15).mean())
+    free = arcs[0].score < LEAST_ARC and empty > MOSTLY_EMPTY
     return Evidence(
         lines=lines,
         tone=float(np.median(middle)) - strip.paper,
@@ -88,7 +92,9 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
         folds=find_folds(gap, sheet) if doubtful and not _crossed(lines) else (),
         leaf_px=leaf_thickness(arcs[0], sheet) if arcs[0].score >= LEAST_ARC else 0.0,
         leaf_lines=leaf_lines(strip),
-        bare=find_bare(gap, sheet) if arcs[0].score < LEAST_ARC and empty > MOSTLY_EMPTY else (),
+        bare=find_bare(gap, sheet) if free else (),
+        panel=find_panel(gap, sheet) if free else 0.0,
+        meets=bool(lines) and meets(strip),
     )
 
 

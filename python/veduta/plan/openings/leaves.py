@@ -56,11 +56,15 @@ class Arc:
 
 @dataclass(frozen=True)
 class Fold:
-    """Leaves that fold: how well they are drawn, from which end, to which side."""
+    """Leaves that fold: how well they are drawn, from which end, to which side.
+
+    `both`: half of them fold to either end.
+    """
 
     score: float
     hinge_at_start: bool
     side: int
+    both: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,8 +113,12 @@ def find_bare(gap: Gap, sheet: Sheet) -> tuple[Arc, ...]:
 
 
 def find_folds(gap: Gap, sheet: Sheet) -> tuple[Fold, ...]:
-    """The best zigzag for each hinge and side, of two or four leaves."""
-    found = [_fold(gap, sheet, frame) for frame in _frames(gap)]
+    """The best zigzag for each hinge and side, of two or four leaves, and a pair of each side."""
+    frames = _frames(gap)
+    found = [_fold(gap, sheet, frame) for frame in frames]
+    for side in (1, -1):
+        halves = [_zigzag(gap, sheet, one, 2, 2) for one in frames if one.side == side]
+        found.append(Fold(min(halves), True, side, both=True))
     return tuple(sorted(found, key=lambda one: -one.score))
 
 
@@ -201,10 +209,14 @@ def _fold(gap: Gap, sheet: Sheet, frame: _Frame) -> Fold:
     return Fold(best, frame.at_start, frame.side)
 
 
-def _zigzag(gap: Gap, sheet: Sheet, frame: _Frame, leaves: int) -> float:
-    """How well so many folded leaves are drawn, however far they are open."""
+def _zigzag(gap: Gap, sheet: Sheet, frame: _Frame, leaves: int, parts: int = 1) -> float:
+    """How well so many folded leaves are drawn, however far they are open.
+
+    They close one of so many parts of the gap.
+    """
     hinges = frame.hinge + np.array(SLACK)[:, None] * gap.thickness_px * frame.opened
-    sizes = gap.width_px / leaves * FOLD_SIZES
+    wide_px = gap.width_px / parts
+    sizes = wide_px / leaves * FOLD_SIZES
     runs = np.array(FOLD_RUNS)[:, None, None, None]
     index = np.arange(leaves)[:, None, None]
     share = np.linspace(0.1, 0.9, FOLD_STEPS)[:, None]
@@ -216,7 +228,7 @@ def _zigzag(gap: Gap, sheet: Sheet, frame: _Frame, leaves: int) -> float:
     normal = runs * frame.opened - turn * rise * frame.closed
     # (slack, sizes, runs, leaves, steps, 2)
     points = hinges[:, None, None, None, None] + sizes[:, None, None, None, None] * at
-    width = max(2.5, 0.16 * gap.width_px / leaves)
+    width = max(2.5, 0.16 * wide_px / leaves)
     on, beside = _traced(sheet, points, width * np.broadcast_to(normal, at.shape))
     # All leaves of a zigzag are drawn: one alone is a line of something else.
     score = on.mean(axis=-1).min(axis=-1) - CROWDED * beside.mean(axis=(-1, -2))

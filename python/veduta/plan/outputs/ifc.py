@@ -321,6 +321,8 @@ def door_operation(opening: Opening) -> DoorOperation:
         return "ROLLINGUP"
     if opening.type in SLIDING and opening.hinge == "both":
         return "DOUBLE_DOOR_SLIDING"
+    if opening.type == "folding" and opening.hinge == "both":
+        return "DOUBLE_DOOR_FOLDING"
     if opening.type in {"double", "french"} or opening.hinge == "both":
         return "DOUBLE_DOOR_SINGLE_SWING"
     if opening.hinge == "none" or opening.swing == "none":

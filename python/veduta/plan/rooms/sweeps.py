@@ -78,7 +78,10 @@ def without_sweeps(room: Mask, door_px: float, thick_px: float) -> tuple[Mask, l
             for sweep, part in _along(way, door_px, thick_px):
                 if any(np.hypot(*(one.tip - sweep.tip)) < door_px / 2 for one in found):
                     continue
-                inside = float(room[_within(part, room.shape)].mean())
+                swept = _within(part, room.shape)
+                if not swept.any():
+                    continue
+                inside = float(room[swept].mean())
                 # The line that is passed straight is the outline's: a leaf that opens outwards
                 # leaves its sweep with the room, where the threshold is not drawn.
                 cv2.fillPoly(whole, [part.astype(np.int32)], int(inside < 0.5))
