@@ -5,7 +5,9 @@
 `plot` and `storeys` are `veduta.synthetic.plans.strangers`, drawn by who wrote the reader, before
 it was run on any. `brochure` and `measured` are a page of a letting agent and a survey, drawn
 from what such sheets look like by somebody who had not read the reader's code, and so is `working`,
-a German working drawing of a flat in a block with chains of sizes. Each is read to its document. A
+a German working drawing of a flat in a block with chains of sizes. `japanese` and `labelled` were
+drawn by somebody who had read how openings are told, before the reader was run on any: a flat with
+doors of panels, and sheets whose windows words tell. Each is read to its document. A
 run over all seeds of all families is kept as `plan-strangers`.
 """
 

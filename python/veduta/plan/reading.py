@@ -26,13 +26,14 @@ from veduta.plan.openings.classify import PLAIN_DOORS, PLAIN_WIDTH, Judged, judg
 from veduta.plan.openings.curved_gaps import gaps_on_circles
 from veduta.plan.openings.evidence import Views
 from veduta.plan.openings.gaps import find_gaps, trimmed
+from veduta.plan.openings.jambs import with_jambed
 from veduta.plan.openings.labelled import Labels, said_window, window_labels, with_said
 from veduta.plan.openings.leaf_pieces import free_leaves, leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
-from veduta.plan.openings.ticks import tick_pieces
+from veduta.plan.openings.ticks import panels_beyond, tick_pieces
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
@@ -258,7 +259,9 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
         said = replace(said, door_px=USUAL_DOOR * found.thin_px)
         judged = judge_gaps(found, views, said)
     said = replace(said, door_px=usual_door(judged) or said.door_px)
-    leaves = leaf_pieces(found.pieces, judged) | tick_pieces(found, views)
+    leaves = leaf_pieces(found.pieces, judged)
+    if known is None:
+        leaves |= tick_pieces(found, views)
     if known is None and way.drawing == "filled":
         door_px = usual_door(judged) or USUAL_DOOR * found.thin_px
         leaves |= free_leaves(found.pieces, found.thin_px, door_px)
@@ -266,13 +269,19 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
         walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
         found = replace(found, pieces=walls)
         judged = judge_gaps(found, views, said)
+    if known is None:
+        judged = [*judged, *panels_beyond(found, views)]
     axes = axes_of([*found.pieces, *found.curved], judged)
     # What a vector file says of its openings goes before what its picture looks like; in walls that
     # are told by their colour, what else is drawn in them is lines of axes.
     told = known is not None or found.by_colour
     whole = mended(axes, found, sheet, texts, by_lines=not told, thin=thin)
     sky = open_sky(whole.axes, found.thin_px, texts)
-    axes = whole.axes if told else with_unbroken(whole.axes, sheet, found.thin_px, sky)
+    axes = whole.axes
+    if not told:
+        axes = with_jambed(
+            with_unbroken(axes, sheet, found.thin_px, sky), sheet, found.thin_px, sky
+        )
     axes = with_said(settled(axes, found.thin_px, sky), said, sheet, sky)
     laid = known.settle(axes) if known else axes
     return drawn_from(cleaned, found, laid, texts, whole.notes)

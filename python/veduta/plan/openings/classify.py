@@ -91,11 +91,11 @@ def _drawn(
         return Judged(gap, "window", window_type(seen), "none", "none", _window_score(seen))
     stub_px = float(np.hypot(*(gap.far - gap.end)))
     to_side = gap.to_side and stub_px < STUB * gap.thickness_px
-    if seen.panel >= LEAST_PANEL and gap.width_px < WIDEST_DOOR * thin_px:
-        return Judged(gap, "door", "sliding", "none", "none", 0.7)
     limit = PLAIN_TO_SIDE if to_side else widest_plain
     if gap.width_px > limit * thin_px:
         return None
+    if seen.panel >= LEAST_PANEL:
+        return Judged(gap, "door", "sliding", "none", "none", 0.7)
     return _bare(gap, seen) or Judged(gap, "gap", "plain", "none", "none", 0.5 * seen.empty + 0.2)
 
 

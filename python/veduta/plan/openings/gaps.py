@@ -83,6 +83,35 @@ def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
     return list(found.values())
 
 
+def beyond_corners(pieces: Sequence[Piece]) -> list[Gap]:
+    """From the far face of the wall that an end of a wall meets on to the next wall across.
+
+    Nothing is interrupted there, but a wall of panels from end to end may go on.
+    """
+    walls = _lines_of(pieces)
+    found = []
+    for index, piece in enumerate(pieces):
+        for at_end in (False, True):
+            tip = piece.end if at_end else piece.start
+            ray = piece.direction if at_end else -piece.direction
+            to_line, to_face, crosses = walls.crossings(tip, ray, walls.thickness)
+            half = to_line - to_face
+            crosses = crosses & (np.arange(len(pieces)) != index)
+            met = crosses & (np.abs(to_line) <= half + 0.6 * piece.thickness_px)
+            if not met.any():
+                continue
+            origin = tip + float((to_line + half)[met].max()) * ray
+            ahead = np.where(crosses & ~met & (to_face > 0.0), to_face, np.inf)
+            target = int(ahead.argmin())
+            if not np.isfinite(ahead[target]):
+                continue
+            end = tip + float(ahead[target]) * ray
+            if (end - origin) @ ray > LEAST_PX:
+                thick = piece.thickness_px
+                found.append(Gap(index, at_end, target, True, origin, end, thick, end))
+    return found
+
+
 class Lines:
     """Straight walls as arrays: starts, ends and ways (n, 2), lengths and thicknesses (n,)."""
 

@@ -169,7 +169,7 @@ def _by_manner(judged: Judged, windows: Manner, doors: set[Manner], door_px: flo
     if seen is None or judged.hinge != "none" or judged.kind == "gap":
         return judged
     own = manner(seen)
-    if own == windows:
+    if own == windows or (own.panels and windows.panels):
         # The commonest drawing is that of windows, even where it looks like sliding panels.
         kind: OpeningType = "unknown" if own.panels else judged.type
         return replace(judged, kind="window", type=kind if judged.kind == "window" else "unknown")

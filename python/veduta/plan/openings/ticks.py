@@ -10,9 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from veduta.plan.openings.classify import slides
+from veduta.plan.openings.classify import Judged, slides
 from veduta.plan.openings.evidence import Views
-from veduta.plan.openings.gaps import Gap, find_gaps, trimmed
+from veduta.plan.openings.gaps import Gap, beyond_corners, find_gaps, trimmed
 from veduta.plan.openings.panels import MIDDLE
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.pieces import Piece
@@ -21,6 +21,8 @@ LONGEST = 2.5
 """Such strokes are at most so many (thin) wall thicknesses long."""
 LEAST_WIDTH = 4.0
 """What is narrower than so many is no way with panels."""
+WIDEST_PANELS, LEAST_LINES = 22.0, 2
+"""A wall of panels is at most so wide, and drawn with so many lines along it."""
 BESIDE = 1.5
 """They reach beyond their wall's middle by so many of its thicknesses."""
 
@@ -47,6 +49,22 @@ def tick_pieces(found: Found, views: Views) -> set[int]:
             if seen.meets or slides(seen):
                 ticks |= set(within)
     return ticks
+
+
+def panels_beyond(found: Found, views: Views) -> list[Judged]:
+    """Doors of panels from a corner on to the next wall, in line with a wall that ends there."""
+    doors = []
+    for gap in beyond_corners(found.pieces):
+        share = gap.width_px / max(found.thin_px, gap.thickness_px)
+        if not LEAST_WIDTH <= share <= WIDEST_PANELS:
+            continue
+        free = trimmed(gap, found.solid)
+        if free is None or free.width_px < 0.8 * gap.width_px:
+            continue
+        seen = views(free)
+        if seen.meets and seen.inner and len(seen.lines) >= LEAST_LINES:
+            doors.append(Judged(free, "door", "sliding", "none", "none", 0.7, seen))
+    return doors
 
 
 def _within(piece: Piece, gap: Gap) -> bool:
