@@ -14,14 +14,19 @@ const TORN_WEIGHT = 0.02;
 /** Share of the way over which what hides a model, and its own breaks, come to count: before, its picture is seen. */
 const ALONE = 0.12;
 /** Of what is elsewhere in the other view, and the share of the way over which it is left behind. */
-const MOVING_WEIGHT = 0.004;
+const MOVING_WEIGHT = 0.0004;
 const LEAVE = 0.3;
+/** Grey levels by which both pictures may differ where a surface lies in them, and what is left of the weight beyond. */
+const DOUBT = 30;
+const DOUBTED_WEIGHT = 0.05;
+/** Levels of the pictures' smaller ones by which they are compared smoothed: 1.5 px. */
+const SMOOTHED = 1.5;
 /** What a triangle is of a model: a thing that was seen, a break in depth, or what moves. */
 export type LayerKind = "seen" | "torn" | "moving";
 const WEIGHTS: Readonly<Record<LayerKind, string>> = {
-  seen: "1.0",
+  seen: `mix(1.0, believed(), smoothstep(0.0, ${ALONE.toFixed(2)}, m))`,
   torn: `mix(1.0, ${TORN_WEIGHT.toFixed(3)}, smoothstep(0.0, ${ALONE.toFixed(2)}, m))`,
-  moving: `pow(${MOVING_WEIGHT.toFixed(3)}, smoothstep(0.0, ${LEAVE.toFixed(2)}, m))`,
+  moving: `pow(${MOVING_WEIGHT.toFixed(4)}, smoothstep(0.0, ${LEAVE.toFixed(2)}, m))`,
 };
 const LOOKS: Readonly<Record<MorphLook, number>> = { picture: 0, geometry: 1, psi: 2 };
 
@@ -79,6 +84,12 @@ export function layerMaterial(uniforms: LayerUniforms, kind: LayerKind): ShaderM
       varying vec2 vThere;
       varying float vPsi;
       varying vec3 vSeen;
+      // A surface at the wrong depth lies in the other picture where that shows something else.
+      float believed() {
+        vec3 apart = texture2D(own, vOwn.xy / vOwn.z, ${SMOOTHED.toFixed(1)}).rgb - texture2D(other, vThere, ${SMOOTHED.toFixed(1)}).rgb;
+        float share = dot(abs(apart), vec3(255.0 / 3.0)) / ${DOUBT.toFixed(1)};
+        return mix(${DOUBTED_WEIGHT.toFixed(3)}, 1.0, exp(-share * share));
+      }
       void main() {
         vec3 colour = mix(texture2D(own, vOwn.xy / vOwn.z).rgb, texture2D(other, vThere).rgb, m * vPsi);
         if (look > 1.5) {
@@ -92,7 +103,8 @@ export function layerMaterial(uniforms: LayerUniforms, kind: LayerKind): ShaderM
           float near = clamp(8.0 / -vSeen.z, 0.0, 1.0);
           colour = light * mix(vec3(0.45, 0.55, 0.7), vec3(0.95, 0.85, 0.7), near);
         }
-        gl_FragColor = vec4(colour, ${WEIGHTS[kind]});
+        // The root of the weight: eight bits then have small ones, too.
+        gl_FragColor = vec4(colour, sqrt(${WEIGHTS[kind]}));
       }`,
   });
 }
@@ -149,6 +161,8 @@ export function mixMaterial(uniforms: MixUniforms): ShaderMaterial {
       vec4 mixedAt(vec2 at) {
         vec4 own = texture2D(ownColour, at);
         vec4 other = texture2D(otherColour, at);
+        own.a *= own.a;
+        other.a *= other.a;
         float ownZ = -perspectiveDepthToViewZ(texture2D(ownDepth, at).r, near, far);
         float otherZ = -perspectiveDepthToViewZ(texture2D(otherDepth, at).r, near, far);
         ownZ = own.a > 0.0 ? ownZ : 1e6;
@@ -166,7 +180,7 @@ export function mixMaterial(uniforms: MixUniforms): ShaderMaterial {
         vec4 sum = mixedAt(vAt);
         vec2 texel = 1.0 / vec2(textureSize(ownColour, 0));
         // A hole: what is seen around it closes over it.
-        for (int ring = 0; ring < 7 && sum.a < 1e-7; ring++) {
+        for (int ring = 0; ring < 7 && sum.a < 1e-9; ring++) {
           float radius = 2.0 * pow(1.9, float(ring));
           for (int k = 0; k < 12; k++) {
             float angle = 0.5236 * float(k);

@@ -149,6 +149,26 @@ def test_what_moves_is_left_behind_and_hides_nothing() -> None:
         assert np.abs(picture - seen[4:-4, 4:-4]).max() < 8
 
 
+def test_a_surface_at_the_wrong_depth_is_doubted_away_from_its_own_picture() -> None:
+    """Two sheets before one another; the first model has a wall at a wrong depth, so that it finds
+    something else in the other picture.
+    """
+    size = 80
+    screen = Screen(size, size, (float(size),) * 2, (size / 2.0,) * 2)
+    still = np.column_stack([np.eye(3), np.zeros(3)])
+    wave = np.sin(np.arange(size) * 0.5)[None, :, None] * np.ones((size, 1, 3))
+    wall = (128.0 + 100.0 * wave).astype(np.uint8)
+    right = _sheet(5.0, np.zeros(441, np.uint8), (21, 21))
+    wrong = replace(right, uv_second=right.uv_second + np.array([0.075, 0.0], np.float32))
+    for m, least in ((0.0, 0.999), (0.5, 0.9)):
+        layer = draw_mesh(right, m, still, still, screen, wall, wall)
+        assert layer.weight[4:-4, 4:-4].min() > least
+    inner = draw_mesh(wrong, 0.5, still, still, screen, wall, wall).weight[4:-4, 4:-4]
+    assert np.median(inner) < 0.3
+    assert inner.min() > 0.04, "nothing is left without a weight"
+    assert draw_mesh(wrong, 0.0, still, still, screen, wall, wall).weight[4:-4, 4:-4].min() == 1.0
+
+
 def test_fewer_triangles_keep_what_is_marked() -> None:
     marks = np.zeros((33, 49), np.uint8)
     marks[5:14, 8:23] = GRASS

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from veduta.walk.build.mesh import MorphMesh
 from veduta.walk.build.morph import inverse
-from veduta.walk.build.render import Layer, draw_mesh
+from veduta.walk.build.render import Layer, Mixing, draw_mesh
 from veduta.walk.build.screen import Screen
 from veduta.walk.rig import Image
 
@@ -79,7 +79,7 @@ def _own_colours(mesh: MorphMesh, pose: Matrix, screen: Screen, first: Image) ->
         mesh.points, mesh.destinations, mesh.uv, mesh.uv_second,
         np.zeros_like(mesh.psi), mesh.triangles, mesh.torn, mesh.round, mesh.marks,
     )  # fmt: skip
-    return draw_mesh(alone, 1.0, inverse(pose), pose, screen, first, first)
+    return draw_mesh(alone, 1.0, inverse(pose), pose, screen, first, first, Mixing(doubt=np.inf))
 
 
 def laid_over(picture: Image, own: Screen, other: Screen) -> Image:

@@ -30,16 +30,21 @@ class Mixing:
     weight of what spans a break in depth. floor: the least weight of a mesh at its own far end.
     alone: share of the way over which what hides a model, and its own breaks, come to count.
     moving: the weight of what moves, and leave: share of the way over which it is left behind.
-    solid: the weight from which a surface hides what is behind it.
+    solid: the weight from which a surface hides what is behind it. doubt: grey levels by which both
+    pictures may differ where a surface lies in them, each smoothed by smooth_px; where they differ by
+    more its weight sinks to doubted (both chosen on `laser/kitti00`).
     """
 
     tolerance: float = 0.3
     torn: float = 0.02
     floor: float = 1e-4
     alone: float = 0.12
-    moving: float = 0.004
+    moving: float = 0.0004
     leave: float = 0.3
     solid: float = 1.0
+    doubt: float = 30.0
+    smooth_px: float = 1.5
+    doubted: float = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,18 +106,37 @@ def draw_mesh(
         placed, carried, mesh.triangles, screen.width_px, screen.height_px, near=NEAR_M
     )
     values = flat.reshape(screen.height_px, screen.width_px, 6)
-    own = _sampled(own_image, values[..., 0:2] / np.maximum(values[..., 2:3], 1e-6))
-    other = _sampled(other_image, values[..., 3:5])
+    places = values[..., 0:2] / np.maximum(values[..., 2:3], 1e-6), values[..., 3:5]
+    own, other = _sampled(own_image, places[0]), _sampled(other_image, places[1])
     share = (m * values[..., 5])[..., None]
     seen_there = which >= 0
     torn = np.where(seen_there, mesh.torn[np.maximum(which, 0)], False)
     away = left_behind(m, mixing)
-    weight = np.where(torn, 1.0 - away * (1.0 - mixing.torn), 1.0) * seen_there
+    least = np.where(torn, mixing.torn, _believed((own_image, other_image), places, mixing))
+    weight = (1.0 - away * (1.0 - least)) * seen_there
     if mesh.marks is not None:
         moving = seen_there & mesh.marked(MOVING)[np.maximum(which, 0)]
         gone = _eased(m, mixing.leave)
         weight = np.where(moving, mixing.moving**gone, weight)
     return Layer((1.0 - share) * own + share * other, weight.astype(np.float32), drawn)
+
+
+def _believed(
+    images: tuple[Image, Image], places: tuple[NDArray[np.floating], NDArray[np.floating]],
+    mixing: Mixing,
+) -> NDArray[np.float32]:  # fmt: skip
+    """(h, w) 0..1: how far both pictures show the same where a surface lies in each. A surface at the
+    wrong depth lies in the other picture where that shows something else.
+    """
+    if not np.isfinite(mixing.doubt):
+        return np.ones(places[0].shape[:2], dtype=np.float32)
+    one, other = (
+        _sampled(cv2.GaussianBlur(image.astype(np.float32), (0, 0), mixing.smooth_px), place)
+        for image, place in zip(images, places, strict=True)
+    )
+    apart = np.abs(one - other).mean(axis=-1) / mixing.doubt
+    alike = np.exp(-np.minimum(apart * apart, 60.0))
+    return np.asarray(mixing.doubted + (1.0 - mixing.doubted) * alike, dtype=np.float32)
 
 
 def left_behind(m: float, mixing: Mixing = Mixing()) -> float:
@@ -145,8 +169,8 @@ def mixed(own: Layer, other: Layer, m: float, mixing: Mixing = Mixing()) -> tupl
         weight = layer.weight * max(share, mixing.floor) * np.exp(-np.minimum(hidden, 60.0))
         colour += weight[..., None] * layer.colour
         total += weight
-    seen = total > 1e-7
-    picture = colour / np.maximum(total, 1e-9)[..., None]
+    seen = total > 1e-9
+    picture = colour / np.maximum(total, 1e-12)[..., None]
     if not seen.all():
         # Nothing was ever seen here: what is around it closes over the hole.
         picture = cv2.inpaint(np.clip(picture, 0, 255).astype(np.uint8), (~seen).astype(np.uint8), 3, cv2.INPAINT_TELEA).astype(np.float32)
