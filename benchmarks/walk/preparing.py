@@ -57,11 +57,16 @@ def prepare(folder: Path, keys: int, width_px: int) -> Row:
 
 
 def play(name: str, place: Path, picture: Path | None, *, ahead: bool = False) -> Row:
-    """A row of what its frames cost. ahead: the browser goes before other programs."""
+    """A row of what its frames cost, or of why there is none: what was prepared is kept anyway.
+    ahead: the browser goes before other programs.
+    """
     with served(place) as address:
         call: list[str | Path] = ["node", HERE / "playing.mjs", ROOT / "studio", address]
         more: list[str | Path] = [*([picture] if picture else []), *(["--ahead"] if ahead else [])]
-        done = subprocess.run([*call, *more], capture_output=True, text=True, check=True)
+        done = subprocess.run([*call, *more], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        last = done.stderr.strip().splitlines()[-1:] or ["no word"]
+        return {"what": f"play {name}", "not played to its end": f"{done.returncode}: {last[0]}"}
     told: dict[str, float] = json.loads(done.stdout)
     return {"what": f"play {name}", **{key: round(value, 1) for key, value in told.items()}}
 
@@ -78,11 +83,6 @@ def main() -> None:
     parser.add_argument("--draft", action="store_true")
     called = parser.parse_args()
     rows: list[Row] = []
-    if not called.play:
-        rows.append(prepare(called.folder, called.keys, called.width_px))
-        print(rows[-1], flush=True)  # playing may fail
-    walk = called.folder if called.play else called.folder / "walk"
-    rows.append(play(called.folder.name, walk, called.picture, ahead=called.ahead))
     notes = [
         "Three views at each key position, joined to mosaics; 3 m from one to the next. One"
         " process; what OpenCV does on a second core counts into its processor time.",
@@ -93,6 +93,12 @@ def main() -> None:
         "draw_calls: what was seen and what spans breaks of both models, and their mixture."
         " card_MB: all models, pictures, and the two pictures that are mixed.",
     ]
+    walk = called.folder if called.play else called.folder / "walk"
+    if not called.play:
+        rows.append(prepare(called.folder, called.keys, called.width_px))
+        # Playing may be cut off.
+        keep_or_print("walk-preparing", rows, [*notes, "Not played yet."], not called.draft)
+    rows.append(play(called.folder.name, walk, called.picture, ahead=called.ahead))
     keep_or_print("walk-preparing", rows, notes, not called.draft)
 
 

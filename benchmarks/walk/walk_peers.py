@@ -90,7 +90,9 @@ def second_pose(cam_from_first: Matrix, second_from_first: Matrix) -> Matrix:
 
 def _still(mesh: MorphMesh, pose: Matrix, screen: Screen, image: Image) -> Layer:
     nowhere = np.column_stack([np.eye(3), np.zeros(3)])
-    return draw_mesh(mesh, 0.0, nowhere, pose, screen, image, image, Mixing(alone=0.0))
+    # Nothing is held against the other picture.
+    mixing = Mixing(alone=0.0, doubt=np.inf)
+    return draw_mesh(mesh, 0.0, nowhere, pose, screen, image, image, mixing)
 
 
 def _bytes(values: NDArray[np.floating]) -> Image:
