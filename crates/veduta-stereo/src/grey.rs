@@ -62,4 +62,34 @@ impl Grey {
         let lower = four[2] + a * (four[3] - four[2]);
         upper + b * (lower - upper)
     }
+
+    /// As `sample` at many points; in steps that the compiler makes of several points at once, where
+    /// `sample` looks at one after the other.
+    #[inline]
+    pub fn samples<const N: usize>(&self, xs: &[f32; N], ys: &[f32; N]) -> [f32; N] {
+        let (right, low) = ((self.width - 1) as f32, (self.height - 1) as f32);
+        let (mut columns, mut rows) = ([0i32; N], [0i32; N]);
+        let (mut across, mut down) = ([0.0f32; N], [0.0f32; N]);
+        for i in 0..N {
+            let (u, v) = (
+                (xs[i] - 0.5).max(0.0).min(right),
+                (ys[i] - 0.5).max(0.0).min(low),
+            );
+            columns[i] = u as i32;
+            rows[i] = v as i32;
+            across[i] = u - columns[i] as f32;
+            down[i] = v - rows[i] as f32;
+        }
+        let mut fours = [0u32; N];
+        for i in 0..N {
+            let at = rows[i] as usize * self.width + columns[i] as usize;
+            fours[i] = u32::from_le_bytes(self.fours[at]);
+        }
+        std::array::from_fn(|i| {
+            let value = |place: u32| (fours[i] >> (8 * place) & 255) as i32 as f32;
+            let upper = value(0) + across[i] * (value(1) - value(0));
+            let lower = value(2) + across[i] * (value(3) - value(2));
+            upper + down[i] * (lower - upper)
+        })
+    }
 }

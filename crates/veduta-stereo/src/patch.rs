@@ -22,12 +22,26 @@ pub struct Window {
     pub noise_grey: f32,
 }
 
+/// Samples, and as many more without a weight as make whole groups of four.
+const LANES: usize = SAMPLES.next_multiple_of(4);
+
+/// Of each sample from the middle, in steps; (x, y).
+const OFFSETS: [(f32, f32); LANES] = {
+    let mut made = [(0.0, 0.0); LANES];
+    let mut i = 0;
+    while i < SAMPLES {
+        made[i] = offset(i);
+        i += 1;
+    }
+    made
+};
+
 /// The samples of a reference window.
 pub struct Patch {
     /// Weights, whose sum is 1.
-    weights: [f32; SAMPLES],
+    weights: [f32; LANES],
     /// Weight times what the sample differs from the mean.
-    centred: [f32; SAMPLES],
+    centred: [f32; LANES],
     variance: f32,
 }
 
@@ -44,15 +58,20 @@ impl Patch {
             let (dx, dy) = offset(i);
             image.sample(cx + dx * window.step_px, cy + dy * window.step_px)
         });
-        let mut weights: [f32; SAMPLES] = std::array::from_fn(|i| {
+        let mut weights = [0.0; LANES];
+        for i in 0..SAMPLES {
             let (dx, dy) = offset(i);
             let away = (dx * dx + dy * dy).sqrt() * window.step_px;
-            (-((values[i] - own).abs() / window.gamma_grey + away / window.gamma_px)).exp()
-        });
+            weights[i] =
+                (-((values[i] - own).abs() / window.gamma_grey + away / window.gamma_px)).exp();
+        }
         let whole: f32 = weights.iter().sum();
         weights.iter_mut().for_each(|one| *one /= whole);
         let mean: f32 = weights.iter().zip(&values).map(|(w, v)| w * v).sum();
-        let centred = std::array::from_fn(|i| weights[i] * (values[i] - mean));
+        let mut centred = [0.0; LANES];
+        for i in 0..SAMPLES {
+            centred[i] = weights[i] * (values[i] - mean);
+        }
         let variance = (0..SAMPLES)
             .map(|i| centred[i] * (values[i] - mean))
             .sum::<f32>();
@@ -88,24 +107,25 @@ impl Patch {
         let along: [[f32; 3]; 2] = std::array::from_fn(|axis| {
             std::array::from_fn(|i| step * (transfer.far[i][axis] + transfer.near[i] * slope[axis]))
         });
-        let mut us = [0.0f32; SAMPLES];
-        let mut vs = [0.0f32; SAMPLES];
-        for i in 0..SAMPLES {
-            let (dx, dy) = offset(i);
+        let (mut us, mut vs) = ([0.0f32; LANES], [0.0f32; LANES]);
+        for i in 0..LANES {
+            let (dx, dy) = OFFSETS[i];
             let z = 1.0 / (middle[2] + dx * along[0][2] + dy * along[1][2]);
             us[i] = (middle[0] + dx * along[0][0] + dy * along[1][0]) * z;
             vs[i] = (middle[1] + dx * along[0][1] + dy * along[1][1]) * z;
         }
-        let mut seen = [0.0f32; SAMPLES];
-        for i in 0..SAMPLES {
-            seen[i] = other.sample(us[i], vs[i]);
+        let seen = other.samples(&us, &vs);
+        let (mut means, mut squares, mut both) = ([0.0f32; 4], [0.0f32; 4], [0.0f32; 4]);
+        for i in (0..LANES).step_by(4) {
+            for lane in 0..4 {
+                let weighted = self.weights[i + lane] * seen[i + lane];
+                means[lane] += weighted;
+                squares[lane] += weighted * seen[i + lane];
+                both[lane] += self.centred[i + lane] * seen[i + lane];
+            }
         }
-        let (mut mean, mut square, mut shared) = (0.0f32, 0.0f32, 0.0f32);
-        for i in 0..SAMPLES {
-            mean += self.weights[i] * seen[i];
-            square += self.weights[i] * seen[i] * seen[i];
-            shared += self.centred[i] * seen[i];
-        }
+        let sum = |lanes: [f32; 4]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+        let (mean, square, shared) = (sum(means), sum(squares), sum(both));
         let floor = window.noise_grey * window.noise_grey;
         let variance = (square - mean * mean).max(0.0) + floor;
         1.0 - shared / ((self.variance + floor) * variance).sqrt()
