@@ -40,6 +40,8 @@ struct Rule {
     vary_normal: f32,
     focal: [f32; 2],
     centre: [f32; 2],
+    same_inverse: f32,
+    same_slope: f32,
 }
 
 #[repr(C)]
@@ -90,7 +92,7 @@ impl Searcher {
             .collect();
         let (pixels, views) = (card.given(&pixels)?, card.given(&views)?);
         let (depths, planes) = (card.given(&depths)?, card.given(&rows)?);
-        let rule = rule_of(image, camera, neighbours.len(), &search);
+        let rule = rule_of(image, camera, neighbours, &search);
         let told = card.given(&[rule])?;
         let bound = [&told, &pixels, &views, &depths, &planes];
         card.run(&self.judge, &bound, rows.len().div_ceil(64));
@@ -144,7 +146,11 @@ fn constants() -> String {
     )
 }
 
-fn rule_of(image: &Grey, camera: Camera, views: usize, search: &Search) -> Rule {
+fn rule_of(image: &Grey, camera: Camera, neighbours: &[Neighbour<'_>], search: &Search) -> Rule {
+    let views = neighbours.len();
+    let there = neighbours.iter();
+    let there = there.map(|one| Transfer::new(&camera, &one.camera));
+    let [same_inverse, same_slope] = search.same(there);
     Rule {
         width: image.width as u32,
         height: image.height as u32,
@@ -165,6 +171,8 @@ fn rule_of(image: &Grey, camera: Camera, views: usize, search: &Search) -> Rule 
         vary_normal: search.vary_normal,
         focal: camera.focal.map(|one| one as f32),
         centre: camera.centre.map(|one| one as f32),
+        same_inverse,
+        same_slope,
     }
 }
 

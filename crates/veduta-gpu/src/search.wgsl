@@ -25,6 +25,9 @@ struct Rule {
     vary_normal: f32,
     focal: vec2<f32>,
     centre: vec2<f32>,
+    // Planes are one that differ by less: inverse depth, and slope.
+    same_inverse: f32,
+    same_slope: f32,
 }
 
 // Rows: (x, y, 1, inverse depth) of the reference to there, and back.
@@ -189,6 +192,11 @@ fn cost(x: u32, y: u32, plane: vec3<f32>) -> f32 {
     return sum / f32(rule.best);
 }
 
+fn same(one: vec3<f32>, other: vec3<f32>) -> bool {
+    let apart = abs(one - other);
+    return apart.x < rule.same_inverse && max(apart.y, apart.z) < rule.same_slope;
+}
+
 fn mixed(given: u32) -> u32 {
     let first = (given ^ (given >> 16u)) * 0x7feb352du;
     let second = (first ^ (first >> 15u)) * 0x846ca68bu;
@@ -296,7 +304,7 @@ fn improve(
                 candidate = vec3<f32>(gone, other.yz);
             }
         }
-        if (any) {
+        if (any && !same(candidate, best.xyz)) {
             let said = cost(x, y, candidate);
             if (said < best.w) {
                 best = vec4<f32>(candidate, said);

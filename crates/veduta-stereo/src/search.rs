@@ -11,7 +11,7 @@ use crate::camera::{Camera, Transfer};
 use crate::chance::Chance;
 use crate::error::StereoError;
 use crate::grey::Grey;
-use crate::patch::{Patch, Window, WORST};
+use crate::patch::{Patch, Window, SIDE, WORST};
 use crate::planes::{Plane, Planes};
 
 /// A view that the reference is compared with.
@@ -42,6 +42,16 @@ pub struct Search {
     pub seed: u64,
 }
 
+impl Search {
+    /// By how much inverse depths (1/m) and slopes (1/m/px) differ where planes are told apart.
+    pub fn same(&self, there: impl Iterator<Item = Transfer>) -> [f32; 2] {
+        // So far a view's pixel moves at most with the inverse depth (px m).
+        let reach = there.map(|one| one.near[0].hypot(one.near[1]));
+        let inverse = SAME_PX / reach.fold(1e-6, f32::max);
+        [inverse, inverse / (self.window.step_px * (SIDE / 2) as f32)]
+    }
+}
+
 /// Pixels from which candidates come, in eight groups; each group gives its best.
 pub const GROUPS: [&[(i32, i32)]; 8] = [
     &[(-1, 0), (-2, -1), (-2, 1)],
@@ -53,6 +63,8 @@ pub const GROUPS: [&[(i32, i32)]; 8] = [
     &[(0, -3), (0, -5), (0, -9), (0, -15)],
     &[(0, 3), (0, 5), (0, 9), (0, 15)],
 ];
+/// Candidates that move no sample of a window by more are the plane at hand: they are not looked at.
+const SAME_PX: f32 = 0.1;
 /// Neighbours at most; others are left out.
 pub const MOST_VIEWS: usize = 16;
 
@@ -64,6 +76,8 @@ struct Scene<'a> {
     there: Vec<Transfer>,
     back: Vec<Transfer>,
     search: Search,
+    /// Planes are one that differ by less.
+    same: [f32; 2],
 }
 
 /// Planes for every pixel of the reference. start: those to go on from, else random ones.
@@ -132,14 +146,16 @@ impl<'a> Scene<'a> {
             }
         }
         let neighbours = &neighbours[..neighbours.len().min(MOST_VIEWS)];
+        let there = neighbours.iter();
+        let there: Vec<Transfer> = there
+            .map(|one| Transfer::new(&camera, &one.camera))
+            .collect();
         Ok(Self {
             image,
             camera,
             neighbours,
-            there: neighbours
-                .iter()
-                .map(|one| Transfer::new(&camera, &one.camera))
-                .collect(),
+            same: search.same(there.iter().copied()),
+            there,
             back: neighbours
                 .iter()
                 .map(|one| Transfer::new(&one.camera, &camera))
@@ -270,7 +286,8 @@ impl<'a> Scene<'a> {
         let i = y * state.width + x;
         let mut best = (state.planes[i], state.costs[i]);
         for group in GROUPS {
-            if let Some(candidate) = self.candidate(state, group, x, y) {
+            let candidate = self.candidate(state, group, x, y);
+            if let Some(candidate) = candidate.filter(|one| !self.is_same(one, &best.0)) {
                 let cost = self.cost(&patch, x, y, candidate);
                 if cost < best.1 {
                     best = (candidate, cost);
@@ -288,6 +305,13 @@ impl<'a> Scene<'a> {
             }
         }
         best
+    }
+
+    /// Whether two planes show a pixel's window at the same places, as far as can be told.
+    fn is_same(&self, one: &Plane, other: &Plane) -> bool {
+        let [inverse, slope] = self.same;
+        let apart = |axis: usize| (one.slope[axis] - other.slope[axis]).abs();
+        (one.inverse - other.inverse).abs() < inverse && apart(0).max(apart(1)) < slope
     }
 
     fn candidate(&self, state: &Planes, group: &[(i32, i32)], x: usize, y: usize) -> Option<Plane> {
