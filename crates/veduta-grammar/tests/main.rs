@@ -24,6 +24,7 @@ mod derivation;
 mod diagnostics;
 mod documents;
 mod edges;
+mod extruding;
 mod files;
 mod format;
 mod generated;

@@ -231,11 +231,13 @@ fn materials_are_forgotten() {
 }
 
 #[test]
-fn corners_that_hardly_turn_inwards_may_stay() {
+fn long_cuts_may_stay_away() {
+    // From the dent to a far corner it is 7.7 m.
     let dented = || lot_of(&[&[(0.0, 0.0), (5.0, 0.1), (10.0, 0.0), (10.0, 6.0), (0.0, 6.0)]]);
     let faces = |text: &str| derived(text, dented()).unwrap().messages.remove(0);
     assert_eq!(faces("Lot --> convexify() print(geometry.nFaces)"), "2");
     assert_eq!(faces("Lot --> convexify(5) print(geometry.nFaces)"), "1");
+    assert_eq!(faces("Lot --> convexify(8) print(geometry.nFaces)"), "2");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Faces as they are made up: holes and convex pieces.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use veduta_geometry::solid::{self, Face, Mesh};
@@ -30,15 +30,15 @@ pub fn delete_holes(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result
     Ok(())
 }
 
-/// `convexify()`, `convexify(angle)`: faces with holes or corners that turn inwards as convex pieces.
-/// Corners that turn inwards by no more than the angle (degrees) count as convex. Pieces share their
-/// points, so that closed shapes stay closed.
+/// `convexify()`, `convexify(length)`: faces with holes or corners that turn inwards as convex pieces,
+/// by cuts that are shorter than the length (m); holes are cut in any case. Pieces share their points,
+/// so that closed shapes stay closed.
 pub fn convexify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let angle = match op.args.len() {
-        0 => 0.0,
-        _ => positive(run, op, 0, frame)?.min(90.0),
+    let longest = match op.args.len() {
+        0 => f64::INFINITY,
+        _ => positive(run, op, 0, frame)?,
     };
-    let inwards = angle.to_radians().sin().max(TOLERANCE);
+    let inwards = TOLERANCE;
     let form = &frame.state.form;
     let Geometry::Faces { solid, .. } = &form.geometry else {
         frame.changed();
@@ -58,7 +58,8 @@ pub fn convexify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
         run.take(corners.saturating_mul(corners), op.span)?;
         let triangles = triangles(&mesh, face)
             .map_err(|error| Fault::at(op.span, format!("a face cannot be divided: {error}")))?;
-        for piece in convex_pieces(&mesh.points, triangles, normal, inwards) {
+        let convex = convex_pieces(&mesh.points, triangles, normal, inwards);
+        for piece in without_cuts_from(longest, &mesh.points, convex) {
             pieces.push_face(&[piece]);
         }
     }
@@ -107,6 +108,38 @@ fn convex_pieces(
             for side in sides(&whole) {
                 owner.insert(side, one);
             }
+            pieces[one] = whole;
+            pieces[other].clear();
+        }
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}
+
+/// The pieces joined across cuts that are as long as this (m), the longest first, where that leaves rings.
+fn without_cuts_from(length: f64, points: &[DVec3], mut pieces: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+    if length == f64::INFINITY {
+        return pieces;
+    }
+    let far = |(a, b): (u32, u32)| points[a as usize].distance(points[b as usize]);
+    let all: HashSet<(u32, u32)> = pieces.iter().flat_map(|piece| sides(piece)).collect();
+    let is_cut = |&(a, b): &(u32, u32)| a < b && all.contains(&(b, a)) && far((a, b)) >= length;
+    let mut cuts: Vec<(u32, u32)> = all.iter().copied().filter(is_cut).collect();
+    cuts.sort_by(|a, b| far(*b).total_cmp(&far(*a)).then(a.cmp(b)));
+    for (a, b) in cuts {
+        let owner = |side| {
+            pieces
+                .iter()
+                .position(|piece| sides(piece).any(|own| own == side))
+        };
+        let (Some(one), Some(other)) = (owner((a, b)), owner((b, a))) else {
+            continue;
+        };
+        let whole = joined(&pieces[one], &pieces[other], a, b).filter(|ring| {
+            let own: HashSet<(u32, u32)> = sides(ring).collect();
+            one != other && own.iter().all(|&(a, b)| !own.contains(&(b, a)))
+        });
+        if let Some(whole) = whole {
             pieces[one] = whole;
             pieces[other].clear();
         }

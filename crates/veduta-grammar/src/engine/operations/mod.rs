@@ -7,6 +7,7 @@ mod components;
 mod dividing;
 mod dividing_textures;
 mod envelopes;
+mod extruding;
 mod inlining;
 mod inner_rectangles;
 mod meshes;

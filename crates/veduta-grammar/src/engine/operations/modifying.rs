@@ -35,6 +35,7 @@ pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     let whole = frame.state.clone();
     let mut parts = Parts::of(&whole.form);
     let mut choosing = Choosing::of(&whole.form, kind, run);
+    let places: Vec<Vec<DVec3>> = choosing.found.iter().map(|one| ends(kind, one)).collect();
     if op.args.len() > 1 && word(run, op, 1, frame)?.as_ref() == "noAlign" {
         choosing = choosing.unaligned();
     }
@@ -53,7 +54,7 @@ pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             let mut state = choosing.state(&whole, at);
             state.selector = selector.name();
             let left = run.inlined(body, state, op.span, frame)?;
-            parts.take(kind, &choosing.found[at], &left);
+            parts.take(kind, &choosing.found[at], &places[at], &left);
         }
     }
     frame.state = whole;
@@ -72,6 +73,16 @@ pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     };
     frame.changed();
     Ok(())
+}
+
+/// The ends of an edge, and the place of a vertex.
+fn ends(kind: Kind, part: &Component) -> Vec<DVec3> {
+    let scope = part.form.scope;
+    match kind {
+        Kind::Edges | Kind::FaceEdges => vec![scope.origin, scope.world(DVec3::X)],
+        Kind::Vertices | Kind::FaceVertices => vec![scope.origin],
+        _ => Vec::new(),
+    }
 }
 
 /// A shape with what has become of its parts.
@@ -98,7 +109,8 @@ impl Parts {
         }
     }
 
-    fn take(&mut self, kind: Kind, part: &Component, left: &[State]) {
+    /// `ends` are the places of an edge or a vertex.
+    fn take(&mut self, kind: Kind, part: &Component, ends: &[DVec3], left: &[State]) {
         let (before, form) = (&part.form, left.first().map(|state| &state.form));
         match (kind, form) {
             (Kind::Faces, Some(form)) if left.len() == 1 && form.geometry == before.geometry => {
@@ -118,12 +130,8 @@ impl Parts {
                     .extend(left.iter().map(|state| state.form.world_mesh()));
             }
             (_, Some(form)) if left.len() == 1 => {
-                let ends: &[DVec3] = match kind {
-                    Kind::Edges | Kind::FaceEdges => &[DVec3::ZERO, DVec3::X],
-                    _ => &[DVec3::ZERO],
-                };
                 for &end in ends {
-                    self.move_point(before.scope.world(end), form.scope.world(end));
+                    self.move_point(end, form.scope.world(before.scope.unit(end)));
                 }
             }
             _ => {}

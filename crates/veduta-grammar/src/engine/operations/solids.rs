@@ -8,13 +8,16 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::marks::Maker;
 use super::super::run::Run;
+use super::extruding::{by_corners, by_faces, of_edge, to_level, Extruded};
 use super::primitives::{filled, lies_across};
 use super::standing::upright;
 use super::{length, word};
 use crate::shape::{Form, Geometry, Instance, Scope};
 
-/// `extrude(height)`, `extrude(direction, height)`: faces to prisms along the normal, or `world.up`
-/// (also `world.y`), or another axis of the world or the scope. The scope holds the solid afterwards,
+/// `extrude(height)`, `extrude(direction, height)`: faces to prisms, each along its normal
+/// (`face.normal`); with `vertex.normal` faces stay together and corners move along the mean of the
+/// normals; `world.up` (also `world.y`), `world.up.flatTop` up to a level top so high above the lowest
+/// corner; or another axis of the world or the scope. Of an edge it makes a wall. The scope holds the solid afterwards,
 /// with y along the direction and x as it was, as far as it can be; along its own axes (Veduta's own
 /// `x`, `y` and `z`) it stays as it is turned. A height of 0 leaves the faces as they are.
 pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
@@ -25,6 +28,16 @@ pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     } else {
         None
     };
+    if let Some(made) = otherwise(&frame.state.form, direction.as_deref(), height) {
+        frame.state.form = made.form;
+        if run.code.tags {
+            frame
+                .state
+                .made(Maker::Extrude, made.along * height.signum());
+        }
+        frame.changed();
+        return Ok(());
+    }
     let form = &frame.state.form;
     let axes = form.scope.axes;
     let along = match direction.as_deref() {
@@ -56,6 +69,26 @@ pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     }
     frame.changed();
     Ok(())
+}
+
+/// What is no prism over faces that look in one direction; None where it is.
+fn otherwise(form: &Form, direction: Option<&str>, height: f64) -> Option<Extruded> {
+    match (&form.geometry, direction) {
+        (Geometry::Nothing, _) if height == 0.0 => None,
+        (Geometry::Nothing, None | Some("face.normal" | "vertex.normal")) => {
+            of_edge(form, None, height)
+        }
+        (Geometry::Nothing, Some("world.up" | "world.up.flatTop" | "world.y")) => {
+            of_edge(form, Some(DVec3::Y), height)
+        }
+        (Geometry::Nothing, _) => None,
+        (_, Some("world.up.flatTop")) => to_level(form, height),
+        (Geometry::Rectangle(_), _) => None,
+        _ if height == 0.0 => None,
+        (_, None | Some("face.normal")) => by_faces(form, height),
+        (_, Some("vertex.normal")) => by_corners(form, height),
+        _ => None,
+    }
 }
 
 fn extruded(form: &Form, along: DVec3, height: f64, axes: DMat3) -> Option<Form> {
