@@ -130,10 +130,11 @@ def _believed(
     """
     if not np.isfinite(mixing.doubt):
         return np.ones(places[0].shape[:2], dtype=np.float32)
-    one, other = (
-        _sampled(cv2.GaussianBlur(image.astype(np.float32), (0, 0), mixing.smooth_px), place)
-        for image, place in zip(images, places, strict=True)
+    smoothed = (
+        np.asarray(cv2.GaussianBlur(image, (0, 0), mixing.smooth_px), dtype=np.float32)
+        for image in (image.astype(np.float32) for image in images)
     )
+    one, other = (_sampled(image, place) for image, place in zip(smoothed, places, strict=True))
     apart = np.abs(one - other).mean(axis=-1) / mixing.doubt
     alike = np.exp(-np.minimum(apart * apart, 60.0))
     return np.asarray(mixing.doubted + (1.0 - mixing.doubted) * alike, dtype=np.float32)
@@ -152,7 +153,7 @@ def _eased(m: float, until: float) -> float:
     return share * share * (3.0 - 2.0 * share)
 
 
-def _sampled(image: Image, uv: NDArray[np.floating]) -> NDArray[np.float32]:
+def _sampled(image: Image | NDArray[np.float32], uv: NDArray[np.floating]) -> NDArray[np.float32]:
     height, width = image.shape[:2]
     return sampled(image, uv * np.array([width, height], dtype=np.float32))
 
