@@ -141,6 +141,7 @@ def _write(
     document = DriveDocument(
         record=log.name,
         crs=record.crs,
+        vertical_datum=record.vertical_datum,
         origin=record.origin_m,
         path_from=record.path_from,
         path=[

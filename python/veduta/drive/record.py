@@ -115,6 +115,8 @@ class DriveRecord:
     """Reads the surface model, where the record has one; None of one that is a photo."""
     overview: Callable[[tuple[float, float], tuple[float, float]], Overview] | None = None
     """Draws the surface model between two corners (m), where the record has one."""
+    vertical_datum: str | None = None
+    """What heights count from, as the user says it."""
     level: tuple[Sweep, ...] = ()
     """Scans of a second scanner that looks level: they see behind some of what hides walls."""
 

@@ -80,6 +80,12 @@ def test_clocks_apart_move_the_scans(folder: Path, scans: DriveScans) -> None:
     assert any("left out" in note for note in record.notes)
 
 
+def test_what_heights_count_from_is_kept(folder: Path) -> None:
+    text = (folder / "drive.toml").read_text()
+    (folder / "drive.toml").write_text(f'vertical_datum = "DHHN2016"\n{text}')
+    assert read_own(folder).vertical_datum == "DHHN2016"
+
+
 def test_missing_images_are_counted(folder: Path, scans: DriveScans) -> None:
     camera = """
 [camera]

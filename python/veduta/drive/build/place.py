@@ -40,6 +40,8 @@ def drive_place(
     up = np.array([0.0, 0.0, lift])
     x, y, z = record.origin_m
     place = Place(title=record.name, crs=record.crs, origin_m=(x, y, z - lift))
+    if record.vertical_datum is not None:
+        place.description = f"Heights count from {record.vertical_datum}."
     for one in outcomes:
         for mesh, standing in placed_meshes(one.load(), lift, one.raw):
             row = PlacedPart(

@@ -129,7 +129,9 @@ class DriveLog(_Record):
 
     name: str = Field(default="drive", max_length=256)
     crs: str | None = Field(default=None, description="EPSG:code of the path's coordinates")
-    vertical_datum: str | None = Field(default=None, max_length=256)
+    vertical_datum: str | None = Field(
+        default=None, max_length=256, description="what the heights of the path count from"
+    )
     origin: tuple[Finite, Finite, Finite] = (0.0, 0.0, 0.0)
     vertical: Scanner | None = None
     full: FullScanner | None = None

@@ -55,6 +55,7 @@ class DriveDocument(_Record):
     version: Literal[1] = 1
     record: str = Field(description="the log that it was read from, relative or absolute")
     crs: str | None = None
+    vertical_datum: str | None = Field(default=None, description="what heights count from")
     origin: Point = (0.0, 0.0, 0.0)
     path_from: str = Field(max_length=1000, description="how the path was found")
     path: list[PathPose] = Field(min_length=1, max_length=1_000_000)

@@ -75,7 +75,7 @@ def read_full(
         notes += missing
     return DriveRecord(
         log.name, sweeps, shots, log.path is not None, height_m, True, log.crs, log.origin,
-        tuple(notes), path_from,
+        tuple(notes), path_from, vertical_datum=log.vertical_datum,
     )  # fmt: skip
 
 

@@ -120,7 +120,7 @@ def read_own(
         path_from, corrections, doubts,
         None if log.surface is None else partial(read_heights, folder / log.surface.file, origin),
         None if log.surface is None else partial(draw_surface, folder / log.surface.file, origin),
-        level_sweeps,
+        log.vertical_datum, level_sweeps,
     )  # fmt: skip
 
 
