@@ -1,9 +1,9 @@
 """Plans of strangers that once failed: what is right of each is kept right.
 
 Not yet right, and therefore only in part here: of `jp_madori` the storeys are parted and closets
-slide, but ROOM 1 has no way out and stairs do not meet; of `fr_13` the bedrooms lose what lies behind height
-lines, and its stairs; of `b3d_3` two bedrooms are one, and so are study and suite; of `b3d_5` the
-door of the shower room, whose leaf hides its stub, is not.
+slide, but ROOM 1 has no way out and stairs do not meet; of `fr_13` the bedrooms lose what lies
+behind height lines, and its stairs; of `b3d_3` two bedrooms are one, and so are study and suite; of
+`b3d_5` the door of the shower room, whose leaf hides its stub, is not.
 """
 
 from __future__ import annotations

@@ -65,6 +65,9 @@ beside both faces together, in the mean, and beside each, as a part of its darke
 MOST_WINDOW = 0.8
 """Less than this part of a wall that is a single line is window."""
 
+LEAST_DOUBLED = 0.64
+"""A wall that is glazed from end to end has two lines along this part of it: posts part them."""
+
 STEADY = 0.16
 """Across an opening its own drawing is the same, up to this part of the darkest row."""
 
@@ -98,7 +101,7 @@ def _spans(axis: Axis, walls: _Walls, number: int, thin_px: float) -> list[tuple
     if not spans or axis.line.drawing == "single-line" or not _mostly(spans, axis.line.length_px):
         return spans
     doubled = doubled_stretches(_wide_strip(axis, walls.sheet, thin_px), least_px)
-    return spans if _mostly(doubled, MOST_WINDOW * axis.line.length_px) else []
+    return spans if _mostly(doubled, axis.line.length_px, LEAST_DOUBLED) else []
 
 
 def _wide_strip(axis: Axis, sheet: Sheet, thin_px: float) -> Strip:
@@ -197,9 +200,9 @@ def _changed(
     return changed_stretches(own.all, usual_profile(bare), least_px, bars=bars)
 
 
-def _mostly(spans: Sequence[tuple[int, int]], length_px: float) -> bool:
-    """Whether more of a wall is in these stretches than can be window."""
-    return sum(high - low for low, high in spans) >= MOST_WINDOW * length_px
+def _mostly(spans: Sequence[tuple[int, int]], length_px: float, share: float = MOST_WINDOW) -> bool:
+    """Whether so much of a wall is in these stretches; as it is given, more than can be window."""
+    return sum(high - low for low, high in spans) >= share * length_px
 
 
 def _middle(strip: Strip) -> float:
