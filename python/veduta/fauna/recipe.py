@@ -15,7 +15,7 @@ from veduta.fauna.options import FaunaOptions
 from veduta.fauna.pictures import angles_over_time, angles_picture, axes_picture
 from veduta.fauna.read.coat import coat_from_above, coat_from_side
 from veduta.fauna.read.footage import Footage, cropped, read_footage, read_masks
-from veduta.fauna.read.from_side import straight_axes
+from veduta.fauna.read.from_side import seen_length, straight_axes
 from veduta.fauna.read.limbless import Seen, axes_in, silhouettes_in, tracked_axes
 from veduta.fauna.read.midlines import read_midlines
 from veduta.fauna.read.overlap import drawn_body, overlap
@@ -24,7 +24,7 @@ from veduta.fauna.read.second_silhouettes import SilhouettePictures, read_second
 from veduta.fauna.read.second_view import SecondView
 from veduta.fauna.read.side_document import describe_from_side
 from veduta.fauna.read.silhouettes import frame_scores
-from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
+from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe, lengths_of
 from veduta.fauna.seen_pictures import scores_picture, second_picture, silhouettes_picture
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
@@ -230,11 +230,12 @@ def _in_pixels(
     points = described.tracked.points.copy()
     points[..., 1] = footage.size[0] - points[..., 1]
     slices = described.animal.body.slices
-    lengths = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     along = np.linspace(0.0, 1.0, points.shape[1])
     thick = [piece.half_height if described.from_side else piece.half_width for piece in slices]
     share = np.interp(along, [piece.at for piece in slices], thick)
-    return points, share * float(np.median(lengths))
+    if described.from_side:
+        return points, share * seen_length(described.tracked)
+    return points, share * float(np.median(lengths_of(points)))
 
 
 def _tell_silhouettes(work: Work, footage: Footage, seen: Seen, described: Described) -> None:

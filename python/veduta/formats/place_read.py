@@ -28,6 +28,7 @@ from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.limits import limited
 
+_FARTHEST_M = 1e12
 _CLASSES = {one.value: one for one in SemanticClass}
 
 
@@ -37,21 +38,21 @@ def read_glb_place(path: Path) -> Place:
     if _is_model(path):
         place.add(read_model(path))
     else:
-        place.add(_part(read_glb_mesh(path, MOST_CORNERS), path.stem))
+        place.add(_part(read_glb_mesh(path, MOST_CORNERS), path))
     return place
 
 
 def read_obj_place(path: Path) -> Place:
     """The polygons of an OBJ file, with the colours of its MTL files."""
     place = Place(title=path.stem)
-    place.add(_part(read_obj(path, path.parent), path.stem))
+    place.add(_part(read_obj(path, path.parent), path))
     return place
 
 
 def read_dae_place(path: Path) -> Place:
     """The polygons of a COLLADA file's scene, with the colours of its materials."""
     place = Place(title=path.stem)
-    place.add(_part(read_dae_mesh(path, MOST_CORNERS), path.stem))
+    place.add(_part(read_dae_mesh(path, MOST_CORNERS), path))
     return place
 
 
@@ -83,14 +84,17 @@ def _class_of(name: str) -> SemanticClass:
     return _CLASSES.get(name.split(".")[0].lower(), SemanticClass.OTHER)
 
 
-def _part(read: ReadMesh, part_id: str) -> Part:
+def _part(read: ReadMesh, path: Path) -> Part:
     """Polygons as a file has them; y up becomes z up."""
     points = read.points[read.corners]
+    if len(points) and float(np.abs(points).max()) > _FARTHEST_M:
+        fault = f"has a point farther than {_FARTHEST_M:g} m from where it counts from"
+        raise InputError(path, fault, "Export it in metres, about a place near it.")
     count = len(read.offsets) - 1
     names = [name or f"material {row + 1}" for row, (name, _) in enumerate(read.materials)]
     rows = _unique([(_class_of(name), Provenance.MEASURED, name) for name in names])
     return Part(
-        id=part_id,
+        id=path.stem,
         positions_m=np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1).astype(
             np.float32
         ),
@@ -99,7 +103,7 @@ def _part(read: ReadMesh, part_id: str) -> Part:
         polygon_offsets=np.arange(count + 1, dtype=np.int64),
         polygon_feature=read.face_material.astype(np.int32),
         polygon_material=read.face_material.astype(np.int32),
-        features=feature_table(part_id, rows),
+        features=feature_table(path.stem, rows),
         materials=tuple(
             Material(name, colour or (1.0, 1.0, 1.0))
             for name, (_, colour) in zip(names, read.materials, strict=True)

@@ -57,8 +57,8 @@ class Engine:
         """On the card where there is one. If it vanishes, `auto` computes this again on the
         processor and stays there; where `gpu` was asked for that is an InputError.
 
-        step: of many alike, whose results agree: `auto` computes the first on both and goes on with
-        the faster.
+        step: of many alike, whose results are the same bytes on both: `auto` computes the first on
+        both and goes on with the faster.
         """
         if self.card is None or step in self.slower:
             return on_cores()

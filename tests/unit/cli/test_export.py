@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import laspy
@@ -99,6 +100,12 @@ def test_the_points_of_a_place_as_laz(
     assert run([str(wall), str(tmp_path / "wall.laz")]) == 0
     assert "all of a part but its outline" in capsys.readouterr().out
     place = Place.load(wall)
+    # The same points in other colours are a layer of their own, and not written again.
+    own = place.clouds[0]
+    classes = np.array([2, 6, 6], dtype=np.uint8)
+    place.clouds[:] = [replace(own, layer="distances"), replace(own, classes=classes)]
+    place.write(tmp_path / "c.laz")
+    assert np.asarray(laspy.read(tmp_path / "c.laz").classification).tolist() == [2, 6, 6]
     place.clouds.clear()
     with pytest.raises(InputError, match=r"b\.laz: the place has no points"):
         place.write(tmp_path / "b.laz")

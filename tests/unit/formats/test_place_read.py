@@ -218,3 +218,12 @@ def test_a_file_that_is_not_there_is_no_folder(name: str, tmp_path: Path) -> Non
         veduta.load(tmp_path / name)
     with pytest.raises(InputError, match="there is no such folder"):
         veduta.load(tmp_path / "none")
+
+
+def test_points_that_lie_out_of_all_reach_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "far.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1e39 0\nf 1 2 3\n")
+    with pytest.raises(InputError, match=r"far\.obj: has a point farther than 1e\+12 m"):
+        Place.load(path)
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1e7 0\nf 1 2 3\n")
+    assert Place.load(path).parts["far"].triangles()[0][:, 2].max() == 1e7

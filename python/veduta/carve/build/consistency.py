@@ -17,7 +17,6 @@ from veduta.carve.views import Pixels, View, camera_rows
 from veduta.run.card import Engine
 
 Cube = NDArray[np.bool_]
-COLOURS = "colours"
 # cameras, photos, distances, corners, solid, low_m, side_m
 SweepInputs = tuple[
     NDArray[np.float64],
@@ -96,12 +95,13 @@ def carve_by_colour(
             spread=spread, least_views=rule.least_views, most_views=rule.most_views,
             least_cosine=rule.least_cosine, rim_voxels=rule.rim_voxels, sweeps=sweeps,
         )  # fmt: skip
-        if engine is None:
+        # A voxel on the threshold may fall on either side: the same call is to give the same bytes,
+        # whatever card there is, so that a card is taken only where it was asked for.
+        if engine is None or engine.device != "gpu":
             return _core.sweep_colours(*given, when)
         return engine.run(
             lambda card: card.sweep_colours(*given, when),
             lambda: _core.sweep_colours(*given, when),
-            COLOURS,
         )
 
     spreads = swept(255.0, 0)[2]
