@@ -49,6 +49,17 @@ def test_numbers_say_it_where_they_are_a_schedule() -> None:
     assert window_labels([row[0], text("W1", 400, 50), text("F1", 500, 50)]) == []
 
 
+def test_a_number_of_a_schedule_says_it_at_every_window_of_its_type() -> None:
+    marks = ("W1", "W1", "W1", "W2", "W3")
+    row = [text(mark, 100.0 * place, 50) for place, mark in enumerate(marks)]
+    assert sorted(one[0] for one in window_labels(row)) == [0.0, 100.0, 200.0, 300.0, 400.0]
+    # Two numbers are no schedule, however often they stand there ...
+    assert window_labels(row[:4]) == []
+    # ... and those with a letter are others.
+    assert len(window_labels([*row[:4], text("W1a", 500, 50)])) == 5
+    assert len(window_labels([text(f"W1{one}", 50, 50) for one in "abc"])) == 3
+
+
 def test_a_way_beside_a_label_is_a_window_and_one_farther_off_is_not() -> None:
     ends = np.array([100.0, 200.0]), np.array([220.0, 200.0])
     gap = Gap(0, True, 1, False, *ends, 20.0, ends[1])

@@ -31,9 +31,10 @@ WORDS = frozenset({
 })  # fmt: skip
 """Folded: without case, accents and sizes."""
 
-NUMBERED = re.compile(r"(w|f|fe|fen|wd|wn|win)[-. ]?(\d{1,2})[a-z]?")
+NUMBERED = re.compile(r"(w|f|fe|fen|wd|wn|win)[-. ]?(\d{1,2}[a-z]?)")
 FEWEST_NUMBERS = 3
-"""A number alone may count anything; so many of a kind are those of a schedule."""
+"""A number alone may count anything; so many of a kind are those of a schedule, which stand beside
+every window of theirs."""
 
 REACH = 1.2
 """A label stands so many doors' widths beside the face of its wall, at most ..."""
@@ -59,14 +60,14 @@ def window_labels(texts: Sequence[Text]) -> list[NDArray[np.float64]]:
     """The middles (2,) of texts that say that a window is here."""
     middles = [np.asarray(one.box_px, float).mean(axis=0) for one in texts]
     found = [at for at, one in zip(middles, texts, strict=True) if _is_word(one.text)]
-    numbered: defaultdict[str, dict[str, NDArray[np.float64]]] = defaultdict(dict)
+    numbered: defaultdict[str, list[tuple[str, NDArray[np.float64]]]] = defaultdict(list)
     for at, one in zip(middles, texts, strict=True):
         match = NUMBERED.fullmatch(one.text.strip().casefold())
         if match:
-            numbered[match[1]].setdefault(match[2], at)
+            numbered[match[1]].append((match[2], at))
     for schedule in numbered.values():
-        if len(schedule) >= FEWEST_NUMBERS:
-            found += schedule.values()
+        if len({number for number, _ in schedule}) >= FEWEST_NUMBERS:
+            found += [at for _, at in schedule]
     return found
 
 
