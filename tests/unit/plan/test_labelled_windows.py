@@ -73,6 +73,18 @@ def test_a_way_beside_a_label_is_a_window_and_one_farther_off_is_not() -> None:
     assert not said(320, 170)
 
 
+@pytest.mark.parametrize(
+    ("width", "is_one"),
+    [(20.0, False), (28.0, True), (264.0, True), (276.0, False), (450.0, False)],
+)
+def test_beside_a_label_only_ways_as_wide_as_windows_are_some(width: float, is_one: bool) -> None:
+    # Of 0.4 to 4.5 doors: 24 to 270 px. The widest is 60 thicknesses of its wall.
+    ends = np.array([100.0, 200.0]), np.array([100.0 + width, 200.0])
+    gap = Gap(0, True, 1, False, *ends, 7.5, ends[1])
+    labels = Labels([np.array([100.0 + width / 2.0, 180.0])], DOOR_PX, 2.0)
+    assert (said_window(gap, labels) is not None) == is_one
+
+
 def outline() -> tuple[Axis, Sheet]:
     """A wall that is a line of 3 px with short strokes across at 150 and 250, a wall at 330."""
     drawn = np.zeros((300, 500), np.uint8)

@@ -93,10 +93,14 @@ class Labels:
         near = np.abs(across) <= line.thickness_px / 2.0 + REACH * self.door_px
         return bool((near & (along >= low - slack) & (along <= high + slack)).any())
 
+    def fits(self, width_px: float) -> bool:
+        """Whether windows are so wide."""
+        return WIDTHS[0] * self.door_px <= width_px <= WIDTHS[1] * self.door_px
+
 
 def said_window(gap: Gap, labels: Labels) -> Judged | None:
-    """A gap as a window, where a label beside it says so."""
-    if not labels.beside(gap, 0.0, gap.width_px):
+    """A gap as a window, where a label beside it says so and it is as wide as one."""
+    if not labels.fits(gap.width_px) or not labels.beside(gap, 0.0, gap.width_px):
         return None
     return Judged(gap, "window", "unknown", "none", "none", SAID)
 
@@ -133,10 +137,9 @@ def _ticked(axis: Axis, labels: Labels, sheet: Sheet, sky: BaseGeometry) -> list
     ticks = ticks_across(line, sheet, labels.door_px)
     found = []
     for low, high in zip(ticks, ticks[1:], strict=False):
-        wide = WIDTHS[0] * labels.door_px <= high - low <= WIDTHS[1] * labels.door_px
         doors = [one for one in axis.openings if one.judged.kind != "window"]
         taken = any(one.first < high and low < one.last for one in doors)
-        if not wide or taken or not labels.beside(line, low, high):
+        if not labels.fits(high - low) or taken or not labels.beside(line, low, high):
             continue
         if leads_out(line, (low, high), sky):
             part = line.part(low, high)
