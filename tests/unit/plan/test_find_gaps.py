@@ -9,7 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from veduta.plan.openings.gaps import BESIDE, CROSSING_RAD, FARTHEST, PARALLEL_RAD, find_gaps
+from veduta.plan.openings.gaps import (
+    BESIDE,
+    CROSSING_RAD,
+    FARTHEST,
+    PARALLEL_RAD,
+    beyond_corners,
+    find_gaps,
+)
 from veduta.plan.openings.strip import Sheet, sample
 from veduta.plan.walls.pieces import Piece
 
@@ -95,6 +102,30 @@ def test_gaps_lead_to_the_nearest_wall_ahead(pieces: list[Piece]) -> None:
         found = nearest(pieces, gap.piece, gap.at_end)
         assert found is not None
         assert math.isclose(gap.width_px, found[2], abs_tol=1e-6)
+
+
+def test_what_lies_beyond_two_corners_in_one_line_is_found_once() -> None:
+    def wall(*ends: float) -> Piece:
+        return Piece(np.array(ends[:2]), np.array(ends[2:]), 20.0)
+
+    # A room of 210 by 210 px between its faces, and walls that end at the middle of each side.
+    sides = [
+        wall(100.0, 85.0, 100.0, 315.0),
+        wall(330.0, 85.0, 330.0, 315.0),
+        wall(100.0, 85.0, 330.0, 85.0),
+        wall(100.0, 315.0, 330.0, 315.0),
+    ]
+    level = [wall(0.0, 200.0, 90.0, 200.0), wall(340.0, 200.0, 450.0, 200.0)]
+    upright = [wall(215.0, 0.0, 215.0, 75.0), wall(215.0, 325.0, 215.0, 400.0)]
+
+    def found(pieces: list[Piece]) -> list[list[list[float]]]:
+        return [np.sort([one.start, one.end], axis=0).tolist() for one in beyond_corners(pieces)]
+
+    across, down = [[110.0, 200.0], [320.0, 200.0]], [[215.0, 95.0], [215.0, 305.0]]
+    assert found([*sides, *level]) == [across]
+    assert found([*sides, level[1]]) == [across]
+    # Those that cross have one middle, too, but are two.
+    assert found([*sides, *level, *upright]) == [across, down]
 
 
 @given(st.lists(st.tuples(st.floats(-40.0, 60.0), st.floats(-40.0, 60.0)), min_size=1, max_size=40))

@@ -87,6 +87,7 @@ def beyond_corners(pieces: Sequence[Piece]) -> list[Gap]:
     """From the far face of the wall that an end of a wall meets on to the next wall across.
 
     Nothing is interrupted there, but a wall of panels from end to end may go on.
+    What walls in one line on both sides lead to is found once.
     """
     walls = _lines_of(pieces)
     found = []
@@ -109,7 +110,25 @@ def beyond_corners(pieces: Sequence[Piece]) -> list[Gap]:
             if (end - origin) @ ray > LEAST_PX:
                 thick = piece.thickness_px
                 found.append(Gap(index, at_end, target, True, origin, end, thick, end))
-    return found
+    return _once(found)
+
+
+def _once(gaps: Sequence[Gap]) -> list[Gap]:
+    """Straight gaps without those whose middle lies in one before them, both in one line."""
+    kept: list[int] = []
+    lines = _lines_of(gaps)
+    for number, gap in enumerate(gaps):
+        away = (gap.start + gap.end) / 2.0 - lines.start[kept]
+        way, line = lines.way[number], lines.way[kept]
+        along = (away * line).sum(axis=1)
+        across = np.abs(away[:, 0] * line[:, 1] - away[:, 1] * line[:, 0])
+        cross = np.abs(way[0] * line[:, 1] - way[1] * line[:, 0])
+        thick = np.maximum(gap.thickness_px, lines.thickness[kept])
+        within = (along >= 0.0) & (along <= lines.length[kept])
+        within &= (across <= np.maximum(3.0, BESIDE * thick)) & (cross <= np.sin(PARALLEL_RAD))
+        if not within.any():
+            kept.append(number)
+    return [gaps[number] for number in kept]
 
 
 class Lines:
@@ -143,7 +162,7 @@ class Lines:
         return to_line, to_line - self.thickness / 2 / np.abs(safe), crosses
 
 
-def _lines_of(pieces: Sequence[Piece]) -> Lines:
+def _lines_of(pieces: Sequence[Piece | Gap]) -> Lines:
     ends = np.array([(one.start, one.end) for one in pieces], float).reshape(-1, 2, 2)
     return Lines(ends[:, 0], ends[:, 1], np.array([one.thickness_px for one in pieces], float))
 
