@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 use veduta_geometry::solid::{self, joined, Mesh};
 
+use super::meshes::triangles;
 use super::standing::upright;
 use crate::shape::{Form, Geometry, Scope, TOLERANCE};
 
@@ -45,13 +46,17 @@ pub fn by_corners(form: &Form, height: f64) -> Option<Extruded> {
     let moved: Vec<DVec3> = moved
         .map(|(point, normal)| point + normal.normalize_or_zero() * height)
         .collect();
+    let mut upper = mesh.clone();
+    upper.points = moved;
     let mut solid = mesh.clone().reversed();
     let above = |point: u32| point + mesh.points.len() as u32;
-    solid.points.extend(moved);
-    for face in mesh.faces() {
-        let ring: Vec<u32> = face.outline().iter().map(|&point| above(point)).collect();
-        for k in 1..ring.len() - 1 {
-            solid.push_face(&[[ring[0], ring[k], ring[k + 1]]]);
+    solid.points.extend(&upper.points);
+    for (index, face) in mesh.faces().enumerate() {
+        for piece in planar_pieces(&upper, &mesh, index) {
+            let rings = piece
+                .iter()
+                .map(|ring| ring.iter().map(|&point| above(point)));
+            solid.push_face(&rings.map(Iterator::collect::<Vec<_>>).collect::<Vec<_>>());
         }
         for (a, b) in face.edges().filter(|&(a, b)| !sides.contains(&(b, a))) {
             solid.push_face(&[[a, b, above(b)]]);
@@ -65,6 +70,22 @@ pub fn by_corners(form: &Form, height: f64) -> Option<Extruded> {
         solid
     };
     Some(around(form, solid, normals[first].normalize_or_zero()))
+}
+
+/// The rings of a face whose corners moved: as it is where it stays in a plane, else of triangles. Where
+/// none fit into its new outline, those of the face before.
+fn planar_pieces(moved: &Mesh, before: &Mesh, index: usize) -> Vec<Vec<Vec<u32>>> {
+    let face = moved.face(index);
+    let whole = || vec![face.rings().map(<[u32]>::to_vec).collect()];
+    if triangles(moved, face).is_ok() {
+        return whole();
+    }
+    let bent = solid::triangles(moved, face, f64::MAX).map_err(|error| error.to_string());
+    let found = bent.or_else(|_| triangles(before, before.face(index)));
+    found.map_or_else(
+        |_| whole(),
+        |all| all.iter().map(|ring| vec![ring.to_vec()]).collect(),
+    )
 }
 
 /// Up to a level top, so high above the lowest corner, but no lower than the highest; below zero down to
