@@ -186,6 +186,14 @@ fn edges_without_numbers_of_their_own_are_walls() {
 }
 
 #[test]
+fn there_are_no_more_walls_or_angles_than_edges() {
+    for arrays in ["[3, 3, 3, 3, 3], [45]", "[3], [45, 45, 45, 45, 45]"] {
+        let told = fault(&format!("Lot --> envelope(normal, 6, {arrays})"));
+        assert!(told.contains("5 numbers for 4 edges"), "{arrays}: {told}");
+    }
+}
+
+#[test]
 fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> roofShed(0)").contains("a slope"));
     assert!(fault("Lot --> roofHip(45, -1)").contains("from 0 on"));

@@ -74,6 +74,12 @@ fn bounds(
         let mut walls = numbers(run, op, &given)?;
         let given = value(run, op, 3, frame)?;
         let mut angles = numbers(run, op, &given)?;
+        for count in [walls.len(), angles.len()] {
+            if count > edges {
+                let message = format!("{count} numbers for {edges} edges");
+                return Err(Fault::at(op.span, message));
+            }
+        }
         // Edges without numbers of their own have walls up to the top.
         walls.resize(edges, 0.0);
         angles.resize(edges, 90.0);
