@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from veduta.formats.laz import write_laz
+from veduta.formats.place_points import points_of
 from veduta.place.place import Place
 from veduta.run.atomic import atomic_write
 from veduta.run.errors import InputError
@@ -14,16 +13,12 @@ from veduta.run.errors import InputError
 
 def write_place_laz(place: Place, path: Path) -> None:
     """Write the points; InputError where the place has none."""
-    if not place.clouds:
+    found = points_of(place)
+    if found is None:
         raise InputError(path, "the place has no points", "Choose a format for surfaces.")
-    # The other layers are the same points in colours that tell something.
-    clouds = [cloud for cloud in place.clouds if cloud.layer == "points"] or place.clouds[:1]
-    points = np.concatenate([cloud.points_m for cloud in clouds]).astype(np.float64)
-    colours = np.concatenate([cloud.colours for cloud in clouds])
-    classes = [cloud.classes for cloud in clouds]
-    known = [one for one in classes if one is not None]
-    every = np.concatenate(known) if len(known) == len(classes) else None
     east, north, up = place.origin_m
     with atomic_write(path) as temporary:
-        write_laz(points, colours, temporary, crs=place.crs, origin_m=(east, north, up),
-                  classes=every)  # fmt: skip
+        write_laz(
+            found.points_m, found.colours, temporary, crs=place.crs, origin_m=(east, north, up),
+            classes=found.classes,
+        )  # fmt: skip

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.pictures import colours_at
+from veduta.formats.place_points import points_of
 from veduta.formats.ply import write_points
 from veduta.formats.shapes import Shape, shapes
 from veduta.place.place import Place
@@ -42,12 +43,11 @@ def write_ply(place: Place, path: Path) -> None:
 
 
 def _write_clouds(place: Place, path: Path) -> None:
-    if not place.clouds:
+    found = points_of(place)
+    if found is None:
         raise InputError(path, "the place has neither parts nor points", "Choose another place.")
-    points = np.concatenate([cloud.points_m for cloud in place.clouds])
-    colours = np.concatenate([cloud.colours for cloud in place.clouds])
     with atomic_write(path) as temporary:
-        write_points(points, colours, temporary)
+        write_points(found.points_m, found.colours, temporary)
 
 
 def _columns(shape: Shape, first: int) -> tuple[NDArray[np.void], NDArray[np.void]]:

@@ -106,6 +106,10 @@ def test_the_points_of_a_place_as_laz(
     place.clouds[:] = [replace(own, layer="distances"), replace(own, classes=classes)]
     place.write(tmp_path / "c.laz")
     assert np.asarray(laspy.read(tmp_path / "c.laz").classification).tolist() == [2, 6, 6]
+    alone = Place()
+    alone.clouds[:] = place.clouds
+    alone.write(tmp_path / "c.ply")
+    assert len(read_points(tmp_path / "c.ply")[0]) == 3
     place.clouds.clear()
     with pytest.raises(InputError, match=r"b\.laz: the place has no points"):
         place.write(tmp_path / "b.laz")
