@@ -13,13 +13,15 @@ from veduta.place.registry import formats
 
 
 def test_every_format_of_a_house(one_house: Path, tmp_path: Path) -> None:
-    names = ",".join(one.name for one in formats().values())
+    # It has no points, which is all that LAZ holds.
+    suffixes = [suffix for suffix in formats() if suffix != ".laz"]
+    names = ",".join(formats()[suffix].name for suffix in suffixes)
     done = refused("export", one_house, "--to", names, "-o", tmp_path / "all")
     assert done.returncode == 0, done.stderr
     # Of a house without doors that open, lamps or tours: CityGML, PLY, STL and maps.
     assert done.stdout.count("not in it") == 6
     made = {file.name for file in (tmp_path / "all").iterdir()}
-    assert {f"out{suffix}" for suffix in formats()} <= made
+    assert {f"out{suffix}" for suffix in suffixes} <= made
     issues = validate_gltf(tmp_path / "all" / "out.glb")
     assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
 

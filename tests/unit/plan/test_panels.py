@@ -13,6 +13,7 @@ from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import Views, look_at
 from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.jambs import with_jambed
+from veduta.plan.openings.panels import find_panel
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.openings.ticks import panels_beyond, tick_pieces
 from veduta.plan.walls.axes import Axis
@@ -183,3 +184,9 @@ def test_panels_from_a_corner_on_to_the_next_wall_are_a_door() -> None:
     assert told(*lines) == []
     assert told(*lines[:2], tick) == []
     assert told(tick) == []
+
+
+def test_a_narrow_way_in_a_thick_wall_has_no_room_for_a_panel() -> None:
+    ends = np.array([START, float(Y)]), np.array([START + 20.0, float(Y)])
+    gap = Gap(0, True, 1, False, *ends, 60.0, ends[1])
+    assert find_panel(gap, drawn_sheet()) == 0.0

@@ -67,7 +67,9 @@ def find_panel(gap: Gap, sheet: Sheet) -> float:
     best = 0.0
     for side in (1.0, -1.0):
         points = gap.start + along[:, None] * way + side * offsets[:, None, None] * normal
-        best = max(best, *(_line(row, along, width) for row in sample(sheet.faint, points) > 0))
+        lines = (_line(row, along, width) for row in sample(sheet.faint, points) > 0)
+        # A narrow gap in a thick wall has no row where a panel could hang.
+        best = max([best, *lines])
     return best
 
 
