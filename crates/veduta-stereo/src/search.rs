@@ -96,7 +96,7 @@ pub fn search(
         .map(|i| {
             let (x, y) = (i % width, i / width);
             let patch = Patch::new(image, x, y, &search.window);
-            scene.cost(&patch, x, y, found.planes[i])
+            scene.cost(&patch, x, y, found.planes[i], f32::INFINITY)
         })
         .collect();
     for sweep in 0..search.sweeps {
@@ -207,28 +207,33 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// What the best views say against a plane at a pixel.
-    fn cost(&self, patch: &Patch, x: usize, y: usize, plane: Plane) -> f32 {
+    /// What the best views say against a plane at a pixel; at least `limit` where it is not less, with
+    /// no more looked at than shows that.
+    fn cost(&self, patch: &Patch, x: usize, y: usize, plane: Plane, limit: f32) -> f32 {
         let (low, high) = (1.0 / self.search.far, 1.0 / self.search.near);
         if !(plane.inverse >= low && plane.inverse <= high) {
             return WORST * 2.0;
         }
         let at = [x as f32 + 0.5, y as f32 + 0.5];
-        let mut costs = [WORST * 2.0; MOST_VIEWS];
-        for (i, one) in self.neighbours.iter().enumerate() {
-            let there = &self.there[i];
-            let window = &self.search.window;
-            let mut cost = patch.cost(one.image, there, at, plane.inverse, plane.slope, window);
-            if let Some(depths) = one.depths {
-                cost += self.inconsistency(i, depths, at, plane.inverse);
-            }
-            costs[i] = cost;
-        }
         let count = self.neighbours.len();
         let best = self.search.views.clamp(1, count);
+        // A window costs nothing at the least, so that what is known so far bounds the rest.
+        let mut costs = [0.0; MOST_VIEWS];
         let costs = &mut costs[..count];
-        costs.sort_unstable_by(f32::total_cmp);
-        costs[..best].iter().sum::<f32>() / best as f32
+        for (i, one) in self.neighbours.iter().enumerate() {
+            if let Some(depths) = one.depths {
+                costs[i] = self.inconsistency(i, depths, at, plane.inverse);
+            }
+        }
+        for (i, one) in self.neighbours.iter().enumerate() {
+            if least(costs, best) >= limit {
+                return limit;
+            }
+            let window = &self.search.window;
+            let there = &self.there[i];
+            costs[i] += patch.cost(one.image, there, at, plane.inverse, plane.slope, window);
+        }
+        least(costs, best)
     }
 
     /// How far the depth that a neighbour has there leads back beside the pixel, as a cost.
@@ -288,7 +293,7 @@ impl<'a> Scene<'a> {
         for group in GROUPS {
             let candidate = self.candidate(state, group, x, y);
             if let Some(candidate) = candidate.filter(|one| !self.is_same(one, &best.0)) {
-                let cost = self.cost(&patch, x, y, candidate);
+                let cost = self.cost(&patch, x, y, candidate, best.1);
                 if cost < best.1 {
                     best = (candidate, cost);
                 }
@@ -299,7 +304,7 @@ impl<'a> Scene<'a> {
         let ray = self.ray(x, y);
         for kind in 0..4 {
             let tried = self.varied(best.0, kind, scale, ray, [x, y], &mut chance);
-            let cost = self.cost(&patch, x, y, tried);
+            let cost = self.cost(&patch, x, y, tried, best.1);
             if cost < best.1 {
                 best = (tried, cost);
             }
@@ -361,4 +366,18 @@ impl<'a> Scene<'a> {
         }
         self.plane(ray, inverse, normal)
     }
+}
+
+/// The mean of the least so many.
+fn least(costs: &[f32], best: usize) -> f32 {
+    let mut sorted = [0.0; MOST_VIEWS];
+    for (count, cost) in costs.iter().enumerate() {
+        let mut place = count;
+        while place > 0 && sorted[place - 1] > *cost {
+            sorted[place] = sorted[place - 1];
+            place -= 1;
+        }
+        sorted[place] = *cost;
+    }
+    sorted[..best].iter().sum::<f32>() / best as f32
 }
