@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use glam::{DMat3, DVec3};
-use veduta_geometry::solid::{Face, Mesh};
+use veduta_geometry::solid::{point_normals, Face, Mesh};
 
 use super::form::{rectangle, Form, Geometry, TOLERANCE};
 use super::scope::Scope;
@@ -348,16 +348,10 @@ fn edge_component(
 
 fn vertices(form: &Form) -> Vec<Component> {
     let mesh = form.world_mesh();
-    let mut sums = vec![DVec3::ZERO; mesh.points.len()];
-    for face in mesh.faces() {
-        let normal = face.normal();
-        for &point in face.rings().flatten() {
-            sums[point as usize] += normal;
-        }
-    }
-    let places = mesh.points.iter().zip(&sums).enumerate();
+    let normals = point_normals(&mesh);
+    let places = mesh.points.iter().zip(normals).enumerate();
     places
-        .map(|(index, (&origin, sum))| vertex(form, origin, sum.normalize_or_zero(), index))
+        .map(|(index, (&origin, normal))| vertex(form, origin, normal, index))
         .collect()
 }
 

@@ -1,7 +1,9 @@
 //! `extrude` of shapes whose faces look in several directions, up to a level top, and of edges.
 
+use std::collections::HashSet;
+
 use glam::{DMat3, DVec3};
-use veduta_geometry::solid::{self, joined, Mesh};
+use veduta_geometry::solid::{self, joined, Face, Mesh};
 
 use super::meshes::triangles;
 use super::standing::upright;
@@ -34,20 +36,12 @@ pub fn by_corners(form: &Form, height: f64) -> Option<Extruded> {
     let near = form.scope.size.length() * TOLERANCE;
     let mesh = joined(&[&form.world_mesh()], near);
     several_directions(&mesh)?;
-    let mut normals = vec![DVec3::ZERO; mesh.points.len()];
-    let mut sides = std::collections::HashSet::new();
-    for face in mesh.faces() {
-        for &point in face.rings().flatten() {
-            normals[point as usize] += face.normal();
-        }
-        sides.extend(face.edges());
-    }
-    let moved = mesh.points.iter().zip(&normals);
-    let moved: Vec<DVec3> = moved
-        .map(|(point, normal)| point + normal.normalize_or_zero() * height)
-        .collect();
+    let normals = solid::point_normals(&mesh);
+    let sides: HashSet<(u32, u32)> = mesh.faces().flat_map(Face::edges).collect();
     let mut upper = mesh.clone();
-    upper.points = moved;
+    for (point, normal) in upper.points.iter_mut().zip(&normals) {
+        *point += normal * height;
+    }
     let mut solid = mesh.clone().reversed();
     let above = |point: u32| point + mesh.points.len() as u32;
     solid.points.extend(&upper.points);
@@ -69,7 +63,7 @@ pub fn by_corners(form: &Form, height: f64) -> Option<Extruded> {
     } else {
         solid
     };
-    Some(around(form, solid, normals[first].normalize_or_zero()))
+    Some(around(form, solid, normals[first]))
 }
 
 /// The rings of a face whose corners moved: as it is where it stays in a plane, else of triangles. Where
