@@ -17,7 +17,7 @@ use crate::carve::{views_of, CarvedVolume};
 use crate::linking::{own_step, rectified, shaped, step_of, told, OwnStep};
 use crate::stereo::{camera_of, planes_told, Matching};
 use crate::stereo_rules::{LinkRule, PairRule, SearchRule};
-use crate::sweeping::{left_of, SweepRule, Sweeping};
+use crate::sweeping::{SweepRule, Sweeping};
 
 /// As in `linking`: the stub's types are read file by file.
 type GivenStep<'py> = (
@@ -126,17 +126,10 @@ impl GraphicsCard {
     ) -> PyResult<Left<'py>> {
         let outlines = (&distances[..], &corners);
         let given = Sweeping::new(&cameras, &photos, outlines, &solid, (low_m, side_m))?;
-        let Sweeping {
-            photos,
-            views,
-            root,
-            solid,
-        } = given;
-        let made = py.detach(|| {
+        given.left(py, fault, |photos, views, root, solid| {
             let on = &self.sweeper;
-            on.sweep(&self.card, &photos, &views, &root, solid, &rule.rule)
-        });
-        left_of(py, made.map_err(fault)?, root.levels)
+            on.sweep(&self.card, photos, views, root, solid, &rule.rule)
+        })
     }
 
     /// As `match_planes` does.

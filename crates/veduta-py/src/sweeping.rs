@@ -89,12 +89,25 @@ impl<'a> Sweeping<'a> {
             solid,
         })
     }
-}
 
-/// For Python: what is left, how many each sweep carved, and the spreads of the hull's voxels.
-pub fn left_of(py: Python<'_>, made: Swept, levels: u32) -> PyResult<Left<'_>> {
-    let spreads = made.hull_spreads.into_pyarray(py);
-    Ok((cube_of(py, made.solid, levels)?, made.carved, spreads))
+    /// For Python: what a sweep leaves, how many each round carved, and the spreads of the hull's voxels.
+    pub fn left<'py, E: Send>(
+        self,
+        py: Python<'py>,
+        to_python: impl FnOnce(E) -> PyErr,
+        swept: impl FnOnce(&[Photo<'a>], &[View<'a>], &Root, Vec<bool>) -> Result<Swept, E> + Send,
+    ) -> PyResult<Left<'py>> {
+        let Self {
+            photos,
+            views,
+            root,
+            solid,
+        } = self;
+        let made = py.detach(|| swept(&photos, &views, &root, solid));
+        let made = made.map_err(to_python)?;
+        let spreads = made.hull_spreads.into_pyarray(py);
+        Ok((cube_of(py, made.solid, root.levels)?, made.carved, spreads))
+    }
 }
 
 /// What colours that disagree leave of the voxels of a cube: whether each is solid, how many each sweep
@@ -115,14 +128,9 @@ fn sweep_colours<'py>(
 ) -> PyResult<Left<'py>> {
     let outlines = (&distances[..], &corners);
     let given = Sweeping::new(&cameras, &photos, outlines, &solid, (low_m, side_m))?;
-    let Sweeping {
-        photos,
-        views,
-        root,
-        solid,
-    } = given;
-    let made = py.detach(|| sweep(&photos, &views, &root, solid, &rule.rule));
-    left_of(py, made.map_err(to_python)?, root.levels)
+    given.left(py, to_python, |photos, views, root, solid| {
+        sweep(photos, views, root, solid, &rule.rule)
+    })
 }
 
 /// Adds the functions of this file to the module.
