@@ -30,6 +30,13 @@ class Axis:
     half_width: Floats
 
 
+def main_axes(points: NDArray[np.floating]) -> tuple[Floats, Floats]:
+    """The middle (2,) of points (n, 2), and the axes along which they spread, the longest first."""
+    middle = np.asarray(points.mean(axis=0), dtype=np.float64)
+    _, _, axes = np.linalg.svd(np.cov((points - middle).T))
+    return middle, np.asarray(axes, dtype=np.float64)
+
+
 def medial_axis(mask: NDArray[np.bool_], count: int) -> Axis | None:
     """The axis of a silhouette (h, w) with `count` points; None where it has none.
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.fauna.motion.angles import Floats
-from veduta.fauna.read.axis import Axis
+from veduta.fauna.read.axis import Axis, main_axes
 from veduta.fauna.read.tracked import SAMPLES, Tracked, lengths_of
 from veduta.run.errors import NotFoundError
 
@@ -53,8 +53,7 @@ def straight_axes(masks: NDArray[np.bool_]) -> tuple[Axis, ...]:
 def _straight(mask: NDArray[np.bool_]) -> Axis:
     y, x = np.nonzero(mask)
     points = np.stack([x, y], axis=1) + 0.5
-    middle = points.mean(axis=0)
-    _, _, axes = np.linalg.svd(np.cov((points - middle).T))
+    middle, axes = main_axes(points)
     along, across = (points - middle) @ axes[0], (points - middle) @ axes[1]
     first = float(along.min()) - 0.5
     column = np.minimum((along - first).astype(np.int64), int(along.max() + 0.5 - first))

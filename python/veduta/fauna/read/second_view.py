@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from veduta.fauna.document.plan import BodyPlan
 from veduta.fauna.motion.angles import Floats
-from veduta.fauna.read.axis import Axis, medial_axis
+from veduta.fauna.read.axis import Axis, main_axes, medial_axis
 from veduta.run.errors import NotFoundError
 
 Mask = NDArray[np.bool_]
@@ -145,13 +145,12 @@ def _across(mask: Mask, looks: SecondLooks) -> Floats:
     """
     y, x = np.nonzero(mask)
     points = np.stack([x, y], axis=1).astype(np.float64)
-    middle = points.mean(axis=0)
-    _, _, axes = np.linalg.svd(np.cov((points - middle).T))
+    middle, axes = main_axes(points)
     angle = np.degrees(np.arctan2(axes[0, 1], axes[0, 0]))
     height, width = mask.shape
     side = int(np.ceil(np.hypot(height, width))) + 2
     turn = cv2.getRotationMatrix2D((float(middle[0]), float(middle[1])), angle, 1.0)
-    turn[:, 2] += 0.5 * side - middle
+    turn[:, 2] = turn[:, 2] + (0.5 * side - middle)
     upright = np.asarray(cv2.warpAffine(mask.astype(np.uint8), turn, (side, side))) > 0
     columns = np.flatnonzero(upright.any(axis=0))
     if not len(columns):
