@@ -334,14 +334,13 @@ def judge_gaps(found: Found, views: Views, said: Labels) -> list[Judged]:
         judge(gap, view, found.thin_px, out, plain)
         for gap, view, out in zip(gaps, seen, outer, strict=True)
     ]
-    labelled = [
-        window if out and (one is None or one.hinge == "none") else None
-        for gap, one, out in zip(gaps, second, outer, strict=True)
-        for window in [said_window(gap, said)]
+    told = [
+        drawn if not out or _speaks(drawn) else said_window(gap, said) or drawn
+        for gap, drawn, out in zip(gaps, second, outer, strict=True)
     ]
-    return [one for one in map(_said_first, labelled, second) if one is not None]
+    return [one for one in told if one is not None]
 
 
-def _said_first(said: Judged | None, drawn: Judged | None) -> Judged | None:
-    """A window that is drawn stays as it is drawn; else what a label says."""
-    return drawn if said is None or (drawn is not None and drawn.kind == "window") else said
+def _speaks(drawn: Judged | None) -> bool:
+    """Whether a drawing says what it is, so that no label is asked: a window, or a leaf."""
+    return drawn is not None and (drawn.kind == "window" or drawn.hinge != "none")

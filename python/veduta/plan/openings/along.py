@@ -246,8 +246,7 @@ def _opening(
     taken = any(one.first - near < high and low < one.last + near for one in axis.openings)
     if taken or high - low < LEAST_WIDTH * thin_px:
         return None
-    part = line.part(low, high)
-    gap = Gap(-1, True, -1, False, part.start, part.end, line.thickness_px, part.end, part.bulge)
+    gap = Gap.along(line, low, high)
     outer = leads_out(line, (low, high), sky)
     seen = judge(gap, look_at(gap, sheet), thin_px, outer)
     if seen is None or seen.kind == "gap" or not (outer or seen.type == "sliding"):

@@ -53,6 +53,14 @@ class Gap:
         """From wall to wall, on the centre line."""
         return self.arc.length_px
 
+    @staticmethod
+    def along(line: Piece, low: float, high: float) -> Gap:
+        """A stretch of a wall that nothing interrupts."""
+        part = line.part(low, high)
+        return Gap(
+            -1, True, -1, False, part.start, part.end, line.thickness_px, part.end, part.bulge
+        )
+
     def part(self, low: float, high: float) -> Gap:
         """What of it lies between two places along it."""
         start, end = self.arc.at(np.array([low, high]))

@@ -64,9 +64,7 @@ def _doors(axis: Axis, sheet: Sheet, thin_px: float, sky: BaseGeometry) -> list[
         *((each, SURE) for each in _between(jambs, thin_px)),
         *((each, ALONE) for each in beside),
     ):
-        part = line.part(low, high)
-        thick = line.thickness_px
-        gap = Gap(-1, True, -1, False, part.start, part.end, thick, part.end, part.bulge)
+        gap = Gap.along(line, low, high)
         if sure == ALONE and find_arcs(gap, sheet)[0].score < sure:
             continue
         outer = leads_out(line, (low, high), sky)

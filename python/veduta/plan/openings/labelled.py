@@ -142,8 +142,7 @@ def _ticked(axis: Axis, labels: Labels, sheet: Sheet, sky: BaseGeometry) -> list
         if not labels.fits(high - low) or taken or not labels.beside(line, low, high):
             continue
         if leads_out(line, (low, high), sky):
-            part = line.part(low, high)
-            gap = Gap(-1, True, -1, False, part.start, part.end, line.thickness_px, part.end)
+            gap = Gap.along(line, low, high)
             said = Judged(gap, "window", "single-line", "none", "none", SAID)
             found.append(OnAxis(said, low, high, along=True))
     return found

@@ -30,20 +30,20 @@ BESIDE = 1.5
 def tick_pieces(found: Found, views: Views) -> set[int]:
     """Indices of pieces of wall that are where panels meet."""
     most_px = LONGEST * found.thin_px
-    short = [
+    short = {
         place
         for place, one in enumerate(found.pieces)
         if one.length_px <= most_px and not one.bulge
-    ]
+    }
     if not short:
         return set()
-    walls = [one for place, one in enumerate(found.pieces) if place not in set(short)]
+    walls = [one for place, one in enumerate(found.pieces) if place not in short]
     ticks = set[int]()
     for ahead in find_gaps(walls, found.curved):
         gap = trimmed(ahead, found.solid)
         if gap is None or gap.width_px < LEAST_WIDTH * found.thin_px:
             continue
-        within = [place for place in short if _within(found.pieces[place], gap)]
+        within = [place for place in sorted(short) if _within(found.pieces[place], gap)]
         if _meet_in_middle([found.pieces[place] for place in within], gap):
             seen = views(gap)
             if seen.meets or slides(seen):
