@@ -1,9 +1,10 @@
-"""What a graphics card makes of carve's hull and colours, and of linking, beside the processor.
+"""What a graphics card makes of carve's hull and colours, of linking, and of the depth search.
 
 Two steps, for the machine with the card has only Python, numpy and the extension. gpu.py --pack
-given.npz [--data FOLDER] takes the silhouettes of the Oxford dinosaur, the photos of Middlebury's
-and Merton College I (after `veduta photos`); there, gpu.py --measure given.npz [--core EXTENSION]
-writes found.json beside it; gpu.py --record found.json keeps `benchmarks/results/gpu.md`.
+given.npz [--data FOLDER] [--photos FOUND] takes the silhouettes of the Oxford dinosaur, the photos
+of Middlebury's, Merton College I (after `veduta photos`), and one photo of FOUND, a result of
+`veduta photos`; there, gpu.py --measure given.npz [--core EXTENSION] writes found.json beside it;
+gpu.py --record found.json keeps `benchmarks/results/gpu.md`.
 """
 
 from __future__ import annotations
@@ -32,6 +33,11 @@ SWEEPS = {
     "rim_voxels": 1.5,
     "sweeps": 80,
 }
+SEARCH = (
+    "near", "far", "sweeps", "views", "step_px", "gamma_grey", "gamma_px", "noise_grey",
+    "consistency", "most_px", "vary_depth", "vary_normal", "seed",
+)  # fmt: skip
+WHOLE = {"sweeps", "views", "seed"}
 AIMS = {"carve 256": 0.1, "links of Merton College I": 0.1}
 
 
@@ -55,6 +61,7 @@ def measure(given: Path, core: Any, software: bool) -> dict[str, Any]:
         _swept(data, core, card),
         *_pairs(data, core, card),
         _links(data, core, card),
+        *([_searched(data, core, card)] if "f0image" in data.files else []),
     ]
     machine = f"{card.name()}; {platform.processor() or platform.machine()}, {os.cpu_count()} cores"
     return {"machine": machine, "rows": rows}
@@ -137,6 +144,34 @@ def _links(data: Any, core: Any, card: Any) -> dict[str, Any]:
     return _row("links of Merton College I", on_card, on_cores, told)
 
 
+def _searched(data: Any, core: Any, card: Any) -> dict[str, Any]:
+    levels: list[tuple[Any, ...]] = []
+    while f"f{len(levels)}image" in data.files:
+        name = f"f{len(levels)}"
+        count = len(data[f"{name}cameras"])
+        depths = [
+            data[f"{name}d{other}"] if f"{name}d{other}" in data.files else None
+            for other in range(count)
+        ]
+        values = zip(SEARCH, data[f"{name}rule"].tolist(), strict=True)
+        rule = core.SearchRule(**{key: int(x) if key in WHOLE else x for key, x in values})
+        start = data[f"{name}start"] if f"{name}start" in data.files else None
+        near = [data[f"{name}n{other}"] for other in range(count)]
+        levels.append(
+            (data[f"{name}image"], data[f"{name}camera"], near, data[f"{name}cameras"], depths,
+             start, tuple(data[f"{name}shape"].tolist()), rule)
+        )  # fmt: skip
+
+    def searched(engine: Any) -> Any:
+        return [engine.match_planes(*level) for level in levels][-1]
+
+    (a, on_card), (b, on_cores) = (timed(partial(searched, engine)) for engine in (card, core))
+    same = float((np.abs(a[:, 0] / b[:, 0] - 1.0) < 0.01).mean())
+    height, width = levels[-1][0].shape
+    what = f"depth search with {len(levels[0][2])} neighbours, {width} x {height}"
+    return _row(what, on_card, on_cores, f"{same:.2%} of the depths within 1 %")
+
+
 def _row(what: str, on_card: float, on_cores: float, agreement: str) -> dict[str, Any]:
     return {
         "what": what,
@@ -147,11 +182,13 @@ def _row(what: str, on_card: float, on_cores: float, agreement: str) -> dict[str
     }
 
 
-def pack(out: Path, data: Path) -> None:
+def pack(out: Path, data: Path, photos: Path | None) -> None:
     """What the machine with the card needs."""
-    from gpu_inputs import carve_inputs, link_inputs, sweep_arrays
+    from gpu_inputs import carve_inputs, link_inputs, search_inputs, sweep_arrays
 
     arrays: dict[str, Any] = {**carve_inputs(data), **sweep_arrays(data), **link_inputs(data)}
+    if photos is not None:
+        arrays |= search_inputs(photos)
     np.savez_compressed(out, **arrays)
 
 
@@ -162,13 +199,14 @@ def main() -> None:
     parser.add_argument("--measure", type=Path)
     parser.add_argument("--record", type=Path)
     parser.add_argument("--core", type=Path, help="the extension, where Veduta is not installed")
+    parser.add_argument("--photos", type=Path, help="a result of `veduta photos`, to pack")
     parser.add_argument("--software", action="store_true")
     parser.add_argument(
         "--data", type=Path, default=Path(__file__).resolve().parents[2] / "shared" / "data"
     )
     given = parser.parse_args()
     if given.pack is not None:
-        pack(given.pack, given.data)
+        pack(given.pack, given.data, given.photos)
     elif given.measure is not None:
         found = measure(given.measure, _core(given.core), given.software)
         print(json.dumps(found, indent=1))

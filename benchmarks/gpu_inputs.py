@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta import _core
 from veduta.cameras import read_cameras
 from veduta.carve.build.bounds import find_bounds
 from veduta.carve.build.consistency import sweep_inputs
@@ -25,16 +27,19 @@ from veduta.dense.read.linking import (
     match_views,
     pair_range,
 )
+from veduta.dense.read.matching import MatchParameters, match_coarse, match_fine
 from veduta.dense.read.neighbours import NeighbourParameters, choose_neighbours
 from veduta.dense.read.pictures import open_views, usable_cameras
 from veduta.dense.read.rectifying import rectified_side, rectify_pair
 from veduta.dense.read.sparse import SparsePoints
 from veduta.photos.options import PhotosOptions
 from veduta.photos.pipeline import run_photos
-from veduta.run.card import choose_engine
+from veduta.run.card import Engine, choose_engine
 from veduta.run.progress import Progress
 
 Arrays = dict[str, NDArray[Any]]
+
+SEARCHED_PX, SEED = 1155, 7  # a megapixel, where photos are 3:2
 
 
 def carve_inputs(data: Path) -> Arrays:
@@ -67,6 +72,67 @@ def sweep_arrays(data: Path) -> Arrays:
         "slow": np.array(low),
         "sside": np.array(side),
     }
+
+
+class Kept:
+    """Takes the place of the engine: computes on the processor, and keeps what it was given."""
+
+    def __init__(self) -> None:
+        self.calls: list[tuple[Any, ...]] = []
+
+    def match_planes(self, *given: Any) -> Any:
+        """As the card's."""
+        self.calls.append(given)
+        return _core.match_planes(*given)
+
+    def run(self, on_card: Callable[[Any], Any], on_cores: Callable[[], Any]) -> Any:
+        """As the engine's."""
+        return on_card(self)
+
+
+def search_inputs(photos_out: Path) -> Arrays:
+    """The depth search of one photo with four neighbours: the three levels of its own.
+
+    photos_out: a result of `veduta photos`.
+    """
+    given = read_cameras(photos_out)
+    usable, _ = usable_cameras(given)
+    if given.points is None or given.visible is None:
+        raise SystemExit(f"{photos_out} has no points")
+    views = open_views(usable, SEARCHED_PX / max(one.width_px for one in usable), {})
+    comparisons, _ = choose_neighbours(
+        views, SparsePoints(given.points, given.visible), 4, NeighbourParameters()
+    )
+    by_view = {one.view: one for one in comparisons}
+    middle = comparisons[len(comparisons) // 2]
+    kept, rule = Kept(), MatchParameters()
+    engine = cast(Engine, kept)
+    planes = {
+        view: match_coarse(views, by_view[view], SEED, rule, engine)
+        for view in (*middle.neighbours, middle.view)
+    }
+    match_fine(views, middle, planes, SEED, rule, engine)
+    found: Arrays = {}
+    levels = (*rule.coarse, rule.fine)
+    for number, (level, call) in enumerate(zip(levels, kept.calls[-len(levels) :], strict=True)):
+        _, sweeps, vary_depth, vary_normal = level
+        found |= _level(f"f{number}", call)
+        found[f"f{number}rule"] = np.array(
+            [middle.near_m, middle.far_m, sweeps, max(1, (len(middle.neighbours) + 1) // 2),
+             rule.step_px, rule.gamma_grey, rule.gamma_px, rule.noise_grey, rule.consistency,
+             rule.most_px, vary_depth, vary_normal, SEED]
+        )  # fmt: skip
+    return found
+
+
+def _level(name: str, call: tuple[Any, ...]) -> Arrays:
+    image, camera, near, cameras, depths, start, shape, _ = call
+    found: Arrays = {f"{name}image": image, f"{name}camera": camera, f"{name}cameras": cameras}
+    found |= {f"{name}n{number}": grey for number, grey in enumerate(near)}
+    found |= {f"{name}d{number}": one for number, one in enumerate(depths) if one is not None}
+    if start is not None:
+        found[f"{name}start"] = start
+    return found | {f"{name}shape": np.array(shape)}
 
 
 def link_inputs(data: Path) -> Arrays:

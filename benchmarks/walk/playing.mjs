@@ -1,19 +1,20 @@
 /**
  * Plays a walk from end to end in Chromium and says in JSON what its frames cost.
  *
- *   node playing.mjs STUDIO_FOLDER ADDRESS [PICTURE.png] [--ahead]
+ *   node playing.mjs STUDIO_FOLDER ADDRESS [PICTURE.png] [--ahead] [--card]
  *
  * A frame's time is from one drawn picture to the next. At a key position: within NEAR of one, where models
  * come and go. processor: what all of the browser spent in a frame, its renderer in software included;
  * unlike the clock's, that time does not grow when other programs want the cores. --ahead: the browser
- * goes before these, which needs root.
+ * goes before these, which needs root. --card: drawn by the machine's graphics card, through Vulkan.
  */
 import { readdirSync, readFileSync } from "node:fs";
 import { setPriority } from "node:os";
 import { createRequire } from "node:module";
 
 const ahead = process.argv.includes("--ahead");
-const [studio, address, picture] = process.argv.slice(2).filter((word) => word !== "--ahead");
+const onCard = process.argv.includes("--card");
+const [studio, address, picture] = process.argv.slice(2).filter((word) => !word.startsWith("--"));
 const { chromium } = createRequire(`${studio}/package.json`)("playwright-core");
 const PATIENCE_MS = 900_000;
 const NEAR = 0.08;
@@ -22,12 +23,15 @@ const READ = 0.5;
 /** A frame that takes longer is a hitch. */
 const HITCH_MS = 100;
 const SAMPLE_MS = 10;
+const RENDERER = onCard
+  ? ["--use-angle=vulkan", "--enable-features=Vulkan", "--ignore-gpu-blocklist", "--disable-vulkan-surface"]
+  : ["--enable-unsafe-swiftshader"];
 /** Before all other programs. */
 const FIRST = -18;
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking", "--no-first-run",
+  args: ["--no-sandbox", ...RENDERER, "--disable-background-networking", "--no-first-run",
     "--enable-precise-memory-info"],
 });
 try {

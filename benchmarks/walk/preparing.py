@@ -67,8 +67,13 @@ def play(name: str, place: Path, picture: Path | None, *, ahead: bool = False) -
     if done.returncode != 0:
         last = done.stderr.strip().splitlines()[-1:] or ["no word"]
         return {"what": f"play {name}", "not played to its end": f"{done.returncode}: {last[0]}"}
-    told: dict[str, float] = json.loads(done.stdout)
-    return {"what": f"play {name}", **{key: round(value, 1) for key, value in told.items()}}
+    return of_played(f"play {name}", done.stdout)
+
+
+def of_played(what: str, told: str) -> Row:
+    """The row of what playing.mjs says."""
+    values: dict[str, float] = json.loads(told)
+    return {"what": what, **{key: round(value, 1) for key, value in values.items()}}
 
 
 def main() -> None:

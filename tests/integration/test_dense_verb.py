@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from PIL import Image
 from stereo_scene import BLOCK_M, WALL_M, depths, eyes, write_set
 
 from veduta import _core
+from veduta.cameras import CameraSet
 from veduta.cli.main import main
 
 
@@ -161,3 +163,29 @@ def test_a_graphics_card_is_refused_where_there_can_be_none(photos: Path, tmp_pa
     assert done.returncode == 2
     assert "built without graphics cards" in done.stderr
     assert "--device auto" in done.stderr
+
+
+def test_a_photo_has_no_depths_where_its_mask_is_black(
+    photos: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from veduta.dense import command
+
+    real = command.read_cameras
+
+    def masked(path: Path, images: Path | None = None) -> CameraSet:
+        given = real(path, images)
+        return replace(given, masks={given.cameras[1].name: tmp_path / "mask.png"})
+
+    shown = np.array(Image.open(next(photos.glob("**/view1.png"))))
+    left = shown.shape[1] // 2
+    mask = np.full(shown.shape[:2], 255, np.uint8)
+    mask[:, :left] = 0
+    Image.fromarray(mask).save(tmp_path / "mask.png")
+    monkeypatch.setattr(command, "read_cameras", masked)
+    out = tmp_path / "out"
+    assert main(["dense", str(photos), "-o", str(out), "--quiet", "--no-mesh"]) == 0
+    found = np.array(Image.open(out / "depth" / "view1.tif"))
+    assert not np.isfinite(found[:, :left]).any()
+    assert np.isfinite(found[:, left:]).mean() > 0.5
+    assert np.isfinite(np.array(Image.open(out / "depth" / "view2.tif"))[:, :left]).any()
+    assert "; computed by the processor" in (out / ".veduta" / "run.json").read_text()

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 from veduta.cameras.camera import Camera
 from veduta.imaging.read import SUFFIXES, image_size
@@ -18,6 +21,8 @@ LONGEST_PATH = 1024
 """Bytes of a name with its folders."""
 NEAR = ("images", "image", "pictures", "photos", "visualize", "rgb")
 """Folders beside a file of cameras where its pictures may be."""
+SAME_CAMERA = 0.01
+"""Of the focal length, by which the calibrations of one camera's photos may differ."""
 _GIVE = "Name the folder of the photos, and give them the names that the cameras have."
 
 
@@ -117,3 +122,28 @@ def require_picture(pictures: Pictures, name: str, source: Path) -> tuple[Path, 
         fault = f"says no size, and the photo {name} is not there"
         raise InputError(source, fault, _GIVE)
     return path, *image_size(path)
+
+
+def require_one_size(cameras: Sequence[Camera]) -> None:
+    """InputError for a photo that has another size than the others of its camera.
+
+    For sources that state no size, so that the photos must: one that was cropped or made smaller
+    would be taken for a camera of its own. A camera is the same where all of its calibration is,
+    to one percent of the focal length.
+    """
+    sizes = Counter((one.width_px, one.height_px) for one in cameras)
+    if len(sizes) < 2:
+        return
+    usual, count = sizes.most_common(1)[0]
+    alike = [one for one in cameras if (one.width_px, one.height_px) == usual]
+    calibrated = np.median([one.matrix().ravel() for one in alike], axis=0)
+    for one in cameras:
+        size = (one.width_px, one.height_px)
+        off = np.abs(one.matrix().ravel() - calibrated).max() / calibrated[0]
+        if size != usual and count > 1 and off < SAME_CAMERA:
+            raise InputError(
+                one.picture or one.name,
+                f"is {size[0]} x {size[1]} px, and the {count} others of its camera are"
+                f" {usual[0]} x {usual[1]} px",
+                "Give the photos at the size at which they were calibrated.",
+            )

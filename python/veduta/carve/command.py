@@ -32,7 +32,7 @@ from veduta.carve.stages import Stages
 from veduta.carve.turned import turn_views
 from veduta.carve.views import View
 from veduta.place.mesh import Mesh
-from veduta.run.card import Engine, choose_engine, tell_engine
+from veduta.run.card import Engine, choose_engine, say_engine, tell_engine
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.names import real_path
@@ -105,6 +105,7 @@ def _make(work: Work, cameras: CameraSet, folder: Path, name: str, stages: Stage
     with work.step("writing"):
         _write(work, (coloured, shown), views, cameras, shift)
     _tell(work, shape, views, measures, cameras)
+    say_engine(work, engine)
 
 
 def _read(

@@ -45,7 +45,7 @@ from veduta.dense.telling import (
 from veduta.dense.workspace import write_colmap
 from veduta.dense.writing import write_cloud, write_depths, write_place
 from veduta.place.mesh import Mesh
-from veduta.run.card import Engine, choose_engine
+from veduta.run.card import Engine, choose_engine, say_engine
 from veduta.run.digests import file_digest
 from veduta.run.errors import NotFoundError
 from veduta.run.names import real_path
@@ -165,6 +165,7 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     if options.surface.tiles and mesh is not None:
         write_tiles(work, next(iter(place.parts.values())))
     tell_result(work, place, cloud, mesh)
+    say_engine(work, engine)
 
 
 def _views(

@@ -119,11 +119,18 @@ def choose_engine(device: Device, *, software: bool = False) -> Engine:
 def tell_engine(work: Work, engine: Engine) -> None:
     """In the report: what computed, and that the card was given up where it was."""
     work.fact("Computed by", engine.told)
+    work.measure("computed_by", engine.told)
     for step, shown in engine.tried.items():
         faster = "the processor" if step in engine.slower else "the card"
         work.note(f"Tried on both, of which {faster} was faster and went on: {shown}.")
     if engine.lost is not None:
         work.doubt(f"{engine.lost}; from there on the processor computed")
+
+
+def say_engine(work: Work, engine: Engine) -> None:
+    """At the end of the summary, which the terminal says: with `auto` nobody chose."""
+    where = "the processor" if engine.card is None else engine.told
+    work.summary = f"{work.summary}; computed by {where}"
 
 
 def _fault() -> type[Exception]:

@@ -173,6 +173,9 @@ def _find(work: Work, record: WalkRecord, options: WalkOptions) -> Found:
     found.stations = [Station(*one) for one in zip(names, shapes, worlds, strict=True)]
     if any(len(views) > 1 for views in record.keys):
         work.measure("largest_gap_share", max(one.gap for one in found.figures))
+    off_px = float(np.fmax.reduce([one.rows_off_px for one in found.figures]))
+    if not np.isnan(off_px):
+        work.measure("largest_rows_off_px", off_px)
     return found
 
 

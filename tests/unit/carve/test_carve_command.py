@@ -127,6 +127,17 @@ def test_a_mask_of_another_size(tmp_path: Path) -> None:
     assert raised.value.subject.endswith("ball02.png")
 
 
+@pytest.mark.parametrize("size", [(90, 96), (192, 192)])
+def test_a_photo_of_another_size_than_its_camera(tmp_path: Path, size: tuple[int, int]) -> None:
+    write_ring(tmp_path / "ball")
+    path = tmp_path / "ball/ball03.png"
+    cv2.imwrite(str(path), cv2.resize(cv2.imread(str(path)), size))
+    told = f"is {size[0]} x {size[1]} px, and the 11 others of its camera are 96 x 96 px"
+    with pytest.raises(InputError, match=told) as raised:
+        _carve(tmp_path / "ball", tmp_path / "out")
+    assert raised.value.subject.endswith("ball03.png")
+
+
 def test_masks_that_are_asked_for_and_missing(tmp_path: Path) -> None:
     write_ring(tmp_path / "ball")
     options = CarveOptions(silhouettes=SilhouetteOptions(background="masks"))

@@ -91,6 +91,17 @@ def test_a_calibration_that_does_not_fit_is_refused(record: Path, tmp_path: Path
     assert "calibrate the two cameras again" in raised.value.remedy
 
 
+def test_how_far_matches_lie_off_their_rows_is_reported(record: Path, tmp_path: Path) -> None:
+    told = _walk(record, tmp_path / "out")
+    assert told.exit_code == 0
+    assert told.measures["largest_rows_off_px"] < 0.5
+    path = record / "right" / "001.png"
+    pixels = np.asarray(Image.open(path))
+    Image.fromarray(np.roll(pixels, 1, axis=0)).save(path)
+    told = _walk(record, tmp_path / "shifted")
+    assert told.measures["largest_rows_off_px"] == pytest.approx(1.0, abs=0.4)
+
+
 def test_other_sizes_later_on_are_named(record: Path, tmp_path: Path) -> None:
     for side in ("left", "right"):
         path = record / side / "001.png"

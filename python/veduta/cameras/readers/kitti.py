@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from veduta.cameras.camera import Camera, CameraSet
 from veduta.cameras.files import COPY_AGAIN, lines_of, numbers, read_text
+from veduta.cameras.pictures import require_one_size
 from veduta.cameras.projection import nearest_turn, part_projection
 from veduta.imaging.read import SUFFIXES, image_size
 from veduta.run.errors import InputError
@@ -158,4 +159,5 @@ def _of_folder(
             skew_px=float(k[0, 1]) if abs(k[0, 1]) > 1e-6 else 0.0,
         )
         cameras.append((frame, camera))
+    require_one_size([camera for _, camera in cameras])
     return cameras

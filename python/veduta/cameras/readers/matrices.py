@@ -24,7 +24,7 @@ from veduta.cameras.files import (
     read_mat,
     read_text,
 )
-from veduta.cameras.pictures import Pictures, natural_order, near
+from veduta.cameras.pictures import Pictures, natural_order, near, require_one_size
 from veduta.cameras.projection import part_projection
 from veduta.imaging.read import image_size
 from veduta.run.errors import InputError
@@ -79,6 +79,7 @@ def read(found: Path, images: Path | None) -> CameraSet:
         _camera(found, index, matrix, path)
         for index, (matrix, path) in enumerate(zip(matrices, paths, strict=True))
     )
+    require_one_size(cameras)
     turned = np.array([1.0, 1.0, -1.0]) if notes else np.ones(3)
     seen = {index: Seen(one.points * turned, one.places_px) for index, one in enumerate(given.seen)}
     require_convention(found, cameras, seen)

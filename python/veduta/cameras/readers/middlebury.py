@@ -11,7 +11,7 @@ import numpy as np
 
 from veduta.cameras.camera import Camera, CameraSet
 from veduta.cameras.files import COPY_AGAIN, lines_of, numbers, read_head, read_text
-from veduta.cameras.pictures import near, require_picture
+from veduta.cameras.pictures import near, require_one_size, require_picture
 from veduta.cameras.projection import nearest_turn
 from veduta.run.errors import InputError
 
@@ -64,6 +64,7 @@ def read(found: Path, images: Path | None) -> CameraSet:
                 skew_px=float(matrix[0, 1]),
             )
         )
+    require_one_size(cameras)
     return CameraSet(cameras=tuple(cameras), source=str(found))
 
 
