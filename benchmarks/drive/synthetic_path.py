@@ -76,7 +76,7 @@ def drive(seed: int, length_m: float, wrong: bool) -> Row:
 
 
 def local_errors(own: Floats, truth: Floats) -> Floats:
-    """(n,) by how much steps of STEP_M along a path are off in the world. Both (s, 3) places (m)."""
+    """(n,) by how much steps of STEP_M along a path are off. Both (s, 3) places (m, world)."""
     moves = np.linalg.norm(np.diff(truth[:, :2], axis=0), axis=1)
     along = np.concatenate([[0.0], np.cumsum(moves)])
     first = np.flatnonzero(along + STEP_M <= along[-1])

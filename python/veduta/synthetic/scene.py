@@ -68,7 +68,8 @@ class RayScene:
         self.material = np.concatenate(material).astype(np.int32)
         self.feature = np.concatenate(feature).astype(np.int32)
         self.polygon = np.concatenate(polygon)
-        self._texels = [_texels(m, (mirrors or {}).get(m.name)) for m in self.materials]
+        self._mirrors = mirrors or {}
+        self._texels: dict[int, NDArray[np.uint8]] = {}
         self._tracer = EmbreeScene()
         self._mesh = TriangleMesh(self._tracer, self.corners)
         self.opacity = np.array([one.opacity for one in self.materials], np.float32)
@@ -108,10 +109,17 @@ class RayScene:
         order = np.argsort(material, kind="stable")
         names, starts = np.unique(material[order], return_index=True)
         for name, members in zip(names, np.split(order, starts[1:]), strict=True):
-            sample = _sample(self._texels[name], at[members])
+            sample = _sample(self._texels_of(int(name)), at[members])
             albedo[members] = _LINEAR_OF_SRGB[sample[:, :3]]
             mirror[members] = sample[:, 3] / np.float32(255.0)
         return albedo, mirror
+
+    def _texels_of(self, number: int) -> NDArray[np.uint8]:
+        """Of a material, made when it is first met: of many houses few rays see all."""
+        if number not in self._texels:
+            material = self.materials[number]
+            self._texels[number] = _texels(material, self._mirrors.get(material.name))
+        return self._texels[number]
 
 
 _LINEAR_OF_SRGB = linear_of_srgb(np.arange(256) / 255.0).astype(np.float32)

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.synthetic.drives import rays
-from veduta.synthetic.drives.street import Kind, Street
+from veduta.synthetic.drives.footprint import mixed, spread
+from veduta.synthetic.drives.scenery import Scenery
+from veduta.synthetic.drives.street import Kind
+from veduta.synthetic.drives.way import Way
 
 _WAVE_M = 60.0
 """Length of the waves in which the truck strays."""
@@ -21,7 +23,7 @@ class TruckOptions:
     spacing_m: of the scans. sway_m, sway_rad: how far the truck strays from a straight line; its
     poses are known. through: share of rays that go through glass; of the others nothing comes back.
     dropped: share of scans that are lost. level: whether a second scanner looks level to the left
-    half (section 2).
+    half (section 2). divergence_rad: how wide a beam opens; 0: thin rays, which cost less.
     """
 
     height_m: float = 3.6
@@ -35,6 +37,11 @@ class TruckOptions:
     through: float = 0.85
     dropped: float = 0.0
     level: bool = False
+    divergence_rad: float = 0.0
+
+
+PAPER = TruckOptions(divergence_rad=0.015)
+"""With the beams of the paper's scanner, too (section 4.1)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +65,7 @@ class DriveScans:
 
 
 def scan_street(
-    street: Street,
+    street: Scenery,
     options: TruckOptions,
     seed: int,
     part_m: tuple[float, float] | None = None,
@@ -68,7 +75,7 @@ def scan_street(
     low, high = part_m or (0.0, street.length_m)
     y = np.arange(low, high, options.spacing_m)
     y = y[random.uniform(size=len(y)) >= options.dropped]
-    poses = poses_at(y, options)
+    poses = poses_at(y, options, street.way)
     angles = np.deg2rad(np.arange(-90.0, 90.0 + 1e-9, options.beam_step_deg))
     ranges = np.zeros((len(y), len(angles)), dtype=np.float32)
     kind = np.zeros(ranges.shape, dtype=np.uint8)
@@ -79,20 +86,25 @@ def scan_street(
         beams = _upright(poses[rows], angles)
         ranges[rows], kind[rows], facade[rows] = _cast(near, poses[rows], beams, options, random)
     times = y / options.speed_m_s
-    level = _scan_level(street, poses, options, random) if options.level else None
+    level = _scan_level(street, y, poses, options, random) if options.level else None
     return DriveScans(times, poses, angles, ranges, kind, facade, options, level)
 
 
-def poses_at(y: NDArray[np.float64], options: TruckOptions) -> NDArray[np.float64]:
-    """(s, 3, 4) world_from_vehicle of the truck at (s,) places along the street (m)."""
-    wave = 2 * np.pi * y / _WAVE_M
+def poses_at(
+    along_m: NDArray[np.float64], options: TruckOptions, way: Way | None = None
+) -> NDArray[np.float64]:
+    """(s, 3, 4) world_from_vehicle of the truck at (s,) places along the street (m).
+
+    x of the vehicle is forward, y to its left; without a way it goes along y of the world.
+    """
+    wave = 2 * np.pi * along_m / _WAVE_M
     yaw = options.sway_rad * np.sin(wave)
-    poses = np.zeros((len(y), 3, 4))
-    # x of the vehicle is forward (y of the world), y to its left (-x of the world).
-    poses[:, 0, 0], poses[:, 1, 0] = -np.sin(yaw), np.cos(yaw)
-    poses[:, 0, 1], poses[:, 1, 1] = -np.cos(yaw), -np.sin(yaw)
-    poses[:, 2, 2] = 1.0
-    poses[:, 0, 3], poses[:, 1, 3] = options.sway_m * np.cos(wave), y
+    frames = (way or Way()).frames(along_m)
+    cosine, sine = np.cos(yaw)[:, None], np.sin(yaw)[:, None]
+    poses = frames.copy()
+    poses[:, :, 0] = cosine * frames[:, :, 0] + sine * frames[:, :, 1]
+    poses[:, :, 1] = cosine * frames[:, :, 1] - sine * frames[:, :, 0]
+    poses[:, :, 3] -= (options.sway_m * np.cos(wave))[:, None] * frames[:, :, 1]
     return poses
 
 
@@ -103,7 +115,8 @@ def _upright(poses: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray
 
 
 def _scan_level(
-    street: Street,
+    street: Scenery,
+    along: NDArray[np.float64],
     poses: NDArray[np.float64],
     options: TruckOptions,
     random: np.random.Generator,
@@ -113,9 +126,8 @@ def _scan_level(
     found = np.zeros((len(poses), len(angles)), dtype=np.float32)
     for first in range(0, len(poses), 50):
         rows = slice(first, first + 50)
-        place = poses[rows, 1, 3]
         far = options.farthest_m
-        near = street.between(float(place.min()) - far, float(place.max()) + far)
+        near = street.between(float(along[rows].min()) - far, float(along[rows].max()) + far)
         beams = poses[rows, None, :, 0] * np.cos(angles)[None, :, None]
         beams = beams + poses[rows, None, :, 1] * np.sin(angles)[None, :, None]
         found[rows] = _cast(near, poses[rows], beams, options, random)[0]
@@ -123,7 +135,7 @@ def _scan_level(
 
 
 def _cast(
-    street: Street,
+    scenery: Scenery,
     poses: NDArray[np.float64],
     beams: NDArray[np.float64],
     options: TruckOptions,
@@ -134,29 +146,19 @@ def _cast(
     origin = poses[:, None, :, 3] + np.array([0.0, 0.0, options.height_m])
     origins = np.broadcast_to(origin, (*shape, 3)).reshape(-1, 3)
     directions = beams.reshape(-1, 3)
-    ground = rays.to_ground(origins, directions)
-    wall = rays.to_boxes(origins, directions, street.walls)
-    things = np.minimum(
-        rays.to_boxes(origins, directions, street.objects),
-        np.minimum(
-            rays.to_cylinders(origins, directions, street.cylinders),
-            rays.to_balls(origins, directions, street.balls),
-        ),
-    )
-    glazed = np.isfinite(wall)
-    glazed &= rays.to_boxes(origins, directions, street.panes) <= wall + 0.05
-    room = rays.to_boxes(origins, directions, street.rooms)
-    facade = np.minimum(ground, wall)
-    passed = glazed & (random.uniform(size=len(origins)) < options.through)
-    behind = np.where(passed, np.minimum(room, ground), np.inf)
-    solid = np.where(glazed & (wall < ground), behind, wall)
-    distance = np.minimum(np.minimum(np.where(glazed & passed, np.inf, ground), solid), things)
-    kind = np.full(len(origins), Kind.GROUND, dtype=np.uint8)
-    kind[wall < ground] = Kind.WALL
-    kind[glazed & (wall < ground)] = Kind.BEHIND_GLASS
-    kind[things <= distance] = Kind.OBJECT
+    passes = random.uniform(size=len(origins)) < options.through
+    if options.divergence_rad > 0.0:
+        cone = spread(directions, options.divergence_rad)
+        rays = cone.shape[1]
+        found, kinds = scenery.meet(
+            np.repeat(origins, rays, axis=0), cone.reshape(-1, 3), np.repeat(passes, rays)
+        )
+        distance, kind = mixed(found.reshape(-1, rays), kinds.reshape(-1, rays))
+    else:
+        distance, kind = scenery.meet(origins, directions, passes)
     distance = distance + random.normal(0.0, options.sigma_m, len(distance))
     lost = ~(distance < options.farthest_m)
     kind[lost] = Kind.NOTHING
     ranges = np.where(lost, 0.0, distance).astype(np.float32)
+    facade, _ = scenery.facade(origins, directions)
     return ranges.reshape(shape), kind.reshape(shape), facade.reshape(shape)

@@ -8,6 +8,9 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.synthetic.drives import rays
+from veduta.synthetic.drives.way import Way
+
 
 class Kind(IntEnum):
     """What a ray meets."""
@@ -69,6 +72,49 @@ class Street:
             boxes(self.walls), boxes(self.objects), round_ones(self.cylinders),
             round_ones(self.balls), boxes(self.panes), boxes(self.rooms), self.length_m,
         )  # fmt: skip
+
+    @property
+    def way(self) -> Way:
+        """Straight along y."""
+        return Way()
+
+    def meet(
+        self,
+        origins: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        passes: NDArray[np.bool_],
+    ) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
+        """See `Scenery`."""
+        ground = rays.to_ground(origins, directions)
+        wall = rays.to_boxes(origins, directions, self.walls)
+        things = np.minimum(
+            rays.to_boxes(origins, directions, self.objects),
+            np.minimum(
+                rays.to_cylinders(origins, directions, self.cylinders),
+                rays.to_balls(origins, directions, self.balls),
+            ),
+        )
+        glazed = np.isfinite(wall)
+        glazed &= rays.to_boxes(origins, directions, self.panes) <= wall + 0.05
+        room = rays.to_boxes(origins, directions, self.rooms)
+        passed = glazed & passes
+        behind = np.where(passed, np.minimum(room, ground), np.inf)
+        solid = np.where(glazed & (wall < ground), behind, wall)
+        distance = np.minimum(np.minimum(np.where(glazed & passed, np.inf, ground), solid), things)
+        kind = np.full(len(origins), Kind.GROUND, dtype=np.uint8)
+        kind[wall < ground] = Kind.WALL
+        kind[glazed & (wall < ground)] = Kind.BEHIND_GLASS
+        kind[things <= distance] = Kind.OBJECT
+        kind[~np.isfinite(distance)] = Kind.NOTHING
+        return distance, kind
+
+    def facade(
+        self, origins: NDArray[np.float64], directions: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """See `Scenery`."""
+        ground = rays.to_ground(origins, directions)
+        wall = rays.to_boxes(origins, directions, self.walls)
+        return np.minimum(ground, wall), wall < ground
 
 
 def build_street(options: StreetOptions, seed: int) -> Street:
