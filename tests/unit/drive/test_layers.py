@@ -57,7 +57,7 @@ def test_car_and_pole_are_two_objects(layers: Layers) -> None:
 
 
 def test_filled_background_lies_in_the_true_planes(layers: Layers, frame: ColumnFrame) -> None:
-    background = fill_background(layers, frame)
+    background = fill_background(layers, find_objects(layers.foreground)[0], frame)
     vertices = frame.vertices(background.depth)
     filled = background.source == Source.FILLED
     wall, ground = filled & background.wall, filled & ~background.wall
@@ -73,7 +73,8 @@ def test_the_road_below_the_vehicle_is_filled() -> None:
     frame = column_frame(line, "left", angles, line[:, 2] - SENSOR_M)
     points, _ = street()  # of the road from 1.5 m on
     sorted_points = sort_into_columns(points, frame, 1.0, FARTHEST_M)
-    background = fill_background(split_layers(sorted_points, frame, FARTHEST_M), frame)
+    layers = split_layers(sorted_points, frame, FARTHEST_M)
+    background = fill_background(layers, find_objects(layers.foreground)[0], frame)
     lowest = background.depth[0]
     np.testing.assert_allclose(lowest, SENSOR_M * np.tan(np.deg2rad(1.0)), atol=0.01)
     assert (background.source[0] == Source.FILLED).all()
@@ -82,7 +83,7 @@ def test_the_road_below_the_vehicle_is_filled() -> None:
 
 
 def test_surface_faces_the_street(layers: Layers, frame: ColumnFrame) -> None:
-    background = fill_background(layers, frame)
+    background = fill_background(layers, find_objects(layers.foreground)[0], frame)
     surface = build_surface(background.depth, background.source, background.wall, frame)
     corners = surface.vertices[surface.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -11,6 +11,7 @@ from scipy import ndimage
 
 from veduta.drive.build.frame import ColumnFrame
 from veduta.drive.build.layers import Layers
+from veduta.drive.build.object_holes import between, fill_structure, ground_planes, holes_of
 
 
 class Source(IntEnum):
@@ -27,8 +28,9 @@ class FillParameters:
     """Thresholds of filling.
 
     gap_m: a gap in the main depth up to this is bridged where both ends agree within `agree_m`.
-    widest_m: a hole of a wall up to this is filled from side to side. step_m: ends of a hole that
-    differ more are of two houses. road_m: the ground is filled so far out where nothing stands.
+    widest_m: a hole that no object left in a wall is filled from side to side up to this. step_m:
+    ends of it that differ more are of two houses. beams_px: so few rows apart are two beams of the
+    scanner with nothing between. road_m: the ground is filled so far out where nothing stands.
     alone: measured pixels with fewer measured ones around (7 x 7) are removed.
     smooth_m: how much the surface may move where it is smoothed (3 sigma of the scanner, 3.5 cm).
     """
@@ -37,6 +39,7 @@ class FillParameters:
     agree_m: float = 0.6
     widest_m: float = 10.0
     step_m: float = 1.0
+    beams_px: int = 4
     road_m: float = 12.0
     alone: int = 5
     smooth_m: float = 0.1
@@ -58,9 +61,14 @@ class Background:
 
 
 def fill_background(
-    layers: Layers, frame: ColumnFrame, parameters: FillParameters | None = None
+    layers: Layers,
+    objects: NDArray[np.int32],
+    frame: ColumnFrame,
+    parameters: FillParameters | None = None,
 ) -> Background:
-    """Ground below the virtual boundary, the wall above it by rows, then by columns."""
+    """What objects hide, one at a time: ground below the virtual boundary, structure above it; then
+    what glass left open, by rows and by columns. objects: (r, c) of `find_objects`.
+    """
     chosen = parameters or FillParameters()
     main = _bridged(layers.depths.main, frame.spacing_m, chosen)
     foot = _virtual_boundary(layers, frame, main)
@@ -73,15 +81,17 @@ def fill_background(
     measured[_alone(np.isfinite(measured), chosen.alone)] = np.nan
     source = np.where(np.isfinite(measured), Source.MEASURED, Source.NOTHING).astype(np.uint8)
     wall = np.where(upper, measured, np.nan)
-    top = _top_rows(np.isfinite(wall), foot, frame.spacing_m)
-    inside = upper & (rows <= top) & np.isfinite(main)
     # From the main depth on, which steps where fronts do: a step is not filled as a slope.
     base = np.where(np.isfinite(main), main, 0.0).astype(np.float32)[None]
+    holes = holes_of(objects)
+    wall = _between_beams(wall - base, upper, chosen)
+    wall = fill_structure(wall, np.where(upper, holes, 0)) + base
+    inside = upper & (rows <= _top_rows(np.isfinite(wall))) & np.isfinite(main)
     filled = _across(wall - base, frame.spacing_m, chosen, axis=1) + base
     filled = _across(filled, float("nan"), chosen, axis=0)
     filled = np.where(inside & np.isnan(filled), main[None].astype(np.float32), filled)
     filled = np.where(inside, filled, wall)
-    depth = np.where(upper, filled, _ground_depth(layers, frame, main, measured, upper, chosen))
+    depth = np.where(upper, filled, _ground_depth(layers, frame, main, measured, holes, foot, chosen))
     depth = _smoothed(depth.astype(np.float32), upper, chosen.smooth_m)
     # Where a beam grazes the ground its depth is noise: there the height is smoothed.
     down = np.tan(np.minimum(frame.angles_rad, -1e-3))[:, None].astype(np.float32)
@@ -138,13 +148,19 @@ def _virtual_boundary(
     return np.where(np.isfinite(main), row, frame.shape[0]).astype(np.int64)
 
 
-def _top_rows(
-    wall: NDArray[np.bool_], foot: NDArray[np.int64], spacing_m: float
-) -> NDArray[np.int64]:
-    """(c,) the highest row of the wall that was seen around a column."""
-    top = np.where(wall.any(axis=0), wall.shape[0] - 1 - np.argmax(wall[::-1], axis=0), -1)
-    wide = max(int(round(3.0 / spacing_m)) | 1, 3)
-    return np.asarray(ndimage.maximum_filter1d(top, wide), dtype=np.int64)
+def _top_rows(wall: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """(c,) the highest row of the wall in each column: nothing is filled above."""
+    return np.where(wall.any(axis=0), wall.shape[0] - 1 - np.argmax(wall[::-1], axis=0), -1)
+
+
+def _between_beams(
+    wall: NDArray[np.float32], upper: NDArray[np.bool_], chosen: FillParameters
+) -> NDArray[np.float32]:
+    """Rows of the depth image that lie between two beams of a coarser scanner."""
+    found, gap, step = between(wall, axis=0)
+    with np.errstate(invalid="ignore"):
+        near = upper & np.isnan(wall) & (gap <= chosen.beams_px) & (step < chosen.step_m)
+    return np.where(near, found, wall)
 
 
 def _alone(filled: NDArray[np.bool_], fewest: int) -> NDArray[np.bool_]:
@@ -156,24 +172,12 @@ def _across(
     depth: NDArray[np.floating], spacing_m: float, chosen: FillParameters, *, axis: int
 ) -> NDArray[np.float32]:
     """Linear between the nearest valid pixels on both sides along an axis, where they agree."""
-    values = np.moveaxis(np.asarray(depth, dtype=np.float32), axis, -1)
-    valid = np.isfinite(values)
-    place = np.broadcast_to(np.arange(values.shape[-1]), values.shape)
-    before = np.maximum.accumulate(np.where(valid, place, -1), axis=-1)
-    after = np.minimum.accumulate(
-        np.where(valid, place, values.shape[-1])[..., ::-1], axis=-1
-    )[..., ::-1]
-    both = ~valid & (before >= 0) & (after < values.shape[-1])
-    low = np.take_along_axis(values, np.maximum(before, 0), axis=-1)
-    high = np.take_along_axis(values, np.minimum(after, values.shape[-1] - 1), axis=-1)
-    gap = np.maximum(after - before, 1)
+    found, gap, step = between(depth, axis=axis)
     with np.errstate(invalid="ignore"):
-        both &= np.abs(high - low) < chosen.step_m
+        alike = step < chosen.step_m
     if np.isfinite(spacing_m):
-        both &= gap * spacing_m <= chosen.widest_m
-    share = (place - before) / gap
-    filled = np.where(both, low + share * (high - low), values)
-    return np.asarray(np.moveaxis(filled, -1, axis), dtype=np.float32)
+        alike &= gap * spacing_m <= chosen.widest_m
+    return np.where(alike, found, depth).astype(np.float32)
 
 
 def _ground_depth(
@@ -181,13 +185,16 @@ def _ground_depth(
     frame: ColumnFrame,
     main: NDArray[np.float64],
     measured: NDArray[np.float32],
-    upper: NDArray[np.bool_],
+    holes: NDArray[np.int32],
+    foot: NDArray[np.int64],
     chosen: FillParameters,
 ) -> NDArray[np.float32]:
     """(r, c) depths at which the beams below the wall meet the ground, measured ones kept.
 
-    The road below the vehicle is of it, too: scanners do not see it, images taken before do.
+    Behind an object that is the plane around it, elsewhere the ground's height nearby. The road
+    below the vehicle is of it, too: scanners do not see it, images taken before do.
     """
+    upper = np.arange(frame.shape[0])[:, None] >= foot
     down = np.tan(np.minimum(frame.angles_rad, -1e-3))[:, None]
     columns = np.broadcast_to(np.arange(frame.shape[1]), frame.shape)
     height = frame.road_m - frame.origins[:, 2]
@@ -196,7 +203,11 @@ def _ground_depth(
     for _ in range(3):
         near = np.clip(depth, 0.0, limit)
         depth = (height + layers.ground.under(columns, near)) / down
-    ground = (frame.angles_rad[:, None] < 0.0) & ~upper & (depth <= limit) & (depth > 0.0)
+    lower = (frame.angles_rad[:, None] < 0.0) & ~upper
+    planes = ground_planes(np.where(upper, np.nan, measured), np.where(lower, holes, 0), frame)
+    with np.errstate(invalid="ignore"):
+        depth = np.where(planes <= limit, planes, depth)
+    ground = lower & (depth <= limit) & (depth > 0.0)
     return np.where(np.isfinite(measured), measured, np.where(ground, depth, np.nan)).astype(
         np.float32
     )

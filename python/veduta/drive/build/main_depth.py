@@ -27,7 +27,10 @@ class DepthParameters:
     least_m: height that stands upright at one depth, for a column to have a main structure.
     farther: what a metre of depth is worth, in metres of height: a wall stands behind what hides
     it. step: cost of a change of depth by a bin, at most `jump` (houses step back).
-    most_m: more height than this counts no more. nearest_m: nearer things are on the road.
+    most_m: more height than this counts no more, but over tall_m each metre is worth `taller` where
+    what is farther by behind_m or more is seen below its top only, by over_deg: a room behind
+    windows shows more of itself than a wall behind a hedge, but never above the front. nearest_m:
+    nearer things are on the road.
     """
 
     bin_m: float = 0.15
@@ -37,6 +40,10 @@ class DepthParameters:
     wide_m: float = 2.0
     least_m: float = 0.35
     most_m: float = 0.8
+    tall_m: float = 2.0
+    taller: float = 0.1
+    behind_m: float = 1.0
+    over_deg: float = 1.0
     farther: float = 0.015
     nearest_m: float = 3.0
     step: float = 0.15
@@ -90,7 +97,10 @@ def find_main_depth(
     depth = (np.arange(bins) + 0.5) * chosen.bin_m
     beside = int(round(chosen.thick_m / chosen.bin_m))
     around = 0.5 * (_moved(histogram, 0, beside) + _moved(histogram, 0, -beside))
-    gain = np.minimum(histogram - chosen.thick * around, chosen.most_m)
+    thin = histogram - chosen.thick * around
+    gain = np.minimum(thin, chosen.most_m)
+    over = _over_what_is_behind(points, above_ground, raw.shape, frame.spacing_m, chosen)
+    gain = gain + chosen.taller * np.where(over, np.maximum(thin - chosen.tall_m, 0.0), 0.0)
     standing = (histogram >= chosen.least_m) & (depth >= chosen.nearest_m)
     gain = np.where(standing, gain + chosen.farther * depth, 0.0)
     line = _cheapest_line(-gain, chosen)
@@ -107,6 +117,27 @@ def find_main_depth(
     main = np.where(porch, front, main)
     split = np.where(porch, front - 2 * chosen.bin_m, split)
     return MainDepth(main, split, across | porch, porch, histogram, chosen.bin_m)
+
+
+def _over_what_is_behind(
+    points: ColumnPoints,
+    above: NDArray[np.floating],
+    shape: tuple[int, ...],
+    spacing_m: float,
+    chosen: DepthParameters,
+) -> NDArray[np.bool_]:
+    """(c, k) where what stands at a depth reaches higher than all that is seen behind it, about."""
+    bins = (points.depth / chosen.bin_m).astype(np.int64)
+    kept = (bins < shape[1]) & (above > chosen.lowest_m)
+    top = np.full(shape, -np.pi / 2, dtype=np.float32)
+    np.maximum.at(top, (points.column[kept], bins[kept]), points.angle[kept])
+    wide = max(int(round(chosen.wide_m / spacing_m)) | 1, 3)
+    top = ndimage.maximum_filter(top, (wide, 3), mode="nearest")
+    gap = max(int(round(chosen.behind_m / chosen.bin_m)), 1)
+    behind = np.full(shape, -np.pi / 2, dtype=np.float32)
+    behind[:, :-gap] = np.maximum.accumulate(top[:, ::-1], axis=1)[:, ::-1][:, gap:]
+    seen = behind > -np.pi / 2
+    return np.asarray(seen & (top > behind + np.deg2rad(chosen.over_deg)))
 
 
 def _moved(values: NDArray[np.float32], columns: int, bins: int) -> NDArray[np.float32]:

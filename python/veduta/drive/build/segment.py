@@ -165,20 +165,24 @@ def reconstruct(
         left = segment.model_copy(update={"fate": "as-is", "reason": why})
         return _left_alone(left, frame, layers)
     objects, count = find_objects(layers.foreground)
-    background, told = _filled(layers, frame, farthest, others)
+    background, told = _filled(layers, objects, frame, farthest, others)
     seconds = time.perf_counter() - begin
     return Geometry(segment, frame, layers, objects, count, background, told, seconds)
 
 
 def _filled(
-    layers: Layers, frame: ColumnFrame, farthest_m: float, others: NDArray[np.float64] | None
+    layers: Layers,
+    objects: NDArray[np.int32],
+    frame: ColumnFrame,
+    farthest_m: float,
+    others: NDArray[np.float64] | None,
 ) -> tuple[Background, Others]:
     """With the points of other sensors, and what difference they make."""
-    alone = fill_background(layers, frame)
+    alone = fill_background(layers, objects, frame)
     if others is None or not len(others):
         return alone, NONE
     more, hole = sort_in(layers, others, frame, farthest_m)
-    own = fill_background(more, frame)
+    own = fill_background(more, objects, frame)
     return own, compared(hole, own, alone)
 
 
