@@ -44,7 +44,8 @@ class DriveCall:
     """Turn a street drive with laser scans and images into textured facades.
 
     Cars, trees and all else that stands before the facades is taken out, the holes are filled, and
-    what is invented is marked. OUT/place.json is what `veduta view` shows; OUT/points.laz has the
+    what is invented is marked. `veduta drive start LOG -o HTML` writes a page on which one clicks
+    where the drive begins. OUT/place.json is what `veduta view` shows; OUT/points.laz has the
     scan points with their classes; OUT/drive.json the path and its segments.
 
     Exit codes: 0 done, 2 bad use or input, 3 there is no facade, 1 a bug.

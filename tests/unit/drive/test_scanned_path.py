@@ -162,7 +162,7 @@ def test_surface_model_that_is_missing_or_has_no_start_is_refused(folder: Path) 
     with pytest.raises(InputError, match="no such file"):
         read_own(folder)
     _aerial_photo(folder / "photo.tif")
-    with pytest.raises(InputError, match=r"says not where the drive begins.*Give `start`"):
+    with pytest.raises(InputError, match=r"says not where the drive begins.*drive start LOG"):
         read_own(folder)
 
 

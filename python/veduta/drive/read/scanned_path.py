@@ -233,7 +233,10 @@ def _start(
         place, within = _first_fix(folder, source, log, crs, time_s), max(within, _GPS_M)
     if place is None:
         fault = "[surface] says not where the drive begins"
-        remedy = "Give `start` = [x, y], `search` = [x, y, x, y], or a [gps] table."
+        remedy = (
+            "Click it: `veduta drive start LOG -o start.html`; or give `start` = [x, y],"
+            " `search` = [x, y, x, y], or a [gps] table."
+        )
         raise InputError(folder / "drive.toml", fault, remedy)
     at = (np.array(place) - model.low) / model.cell_m
     if not (
