@@ -1,4 +1,4 @@
-"""Writes the tables of the docs that follow from the code: `python docs/generate.py`.
+"""Writes the tables and schemas of the docs that follow from the code: `python docs/generate.py`.
 
 A table stands between `<!-- NAME -->` and `<!-- /NAME -->` in a page. With `--check` nothing is
 written, and the exit code is 1 when a page is out of date.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -27,6 +28,8 @@ from veduta.cli.fauna_call import FaunaCall
 from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
 from veduta.cli.photos_call import PhotosCall
 from veduta.cli.plan_call import PlanCall
+from veduta.drive.document.log import DriveLog
+from veduta.drive.document.model import DriveDocument
 from veduta.facade.cleared import BEFORE_COLOURS, KINDS
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
@@ -225,6 +228,18 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
 }
 
 
+SCHEMAS: dict[str, type[BaseModel]] = {
+    "schemas/drive-toml.schema.json": DriveLog,
+    "schemas/drive.schema.json": DriveDocument,
+}
+
+
+def schema_text(model: type[BaseModel]) -> str:
+    """The JSON schema of what a file may hold."""
+    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return json.dumps(dialect | model.model_json_schema(by_alias=True), indent=1) + "\n"
+
+
 def generated(page: str, text: str) -> str:
     """The text of a page with its tables made anew."""
     for name, make in TABLES[page].items():
@@ -240,10 +255,10 @@ def generated(page: str, text: str) -> str:
 def main(arguments: Sequence[str]) -> int:
     """Bring all pages up to date, or say which are not."""
     stale = []
-    for page in TABLES:
+    for page in (*TABLES, *SCHEMAS):
         path = DOCS / page
-        text = path.read_text("utf-8")
-        made = generated(page, text)
+        text = path.read_text("utf-8") if path.exists() else ""
+        made = schema_text(SCHEMAS[page]) if page in SCHEMAS else generated(page, text)
         if made != text:
             stale.append(page)
             if "--check" not in arguments:

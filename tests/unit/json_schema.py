@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import Any
 
 SCHEMAS = Path(__file__).parent / "tile_schemas"
-_TOLD = {"$schema", "$id", "$defs", "title", "description"}
+_TOLD = {"$schema", "$id", "$defs", "title", "description", "default"}
 _WITH_IF = {"then", "else"}
 _TYPES: dict[str, Callable[[Any], bool]] = {
     "object": lambda value: isinstance(value, dict),
     "array": lambda value: isinstance(value, list),
+    "null": lambda value: value is None,
     "string": lambda value: isinstance(value, str),
     "boolean": lambda value: isinstance(value, bool),
     "integer": lambda value: isinstance(value, int) and not isinstance(value, bool),
@@ -53,6 +54,11 @@ _CHECKS: dict[str, Callable[[Any, Any], bool]] = {
     "const": lambda value, rule: type(value) is type(rule) and value == rule,
     "enum": lambda value, rule: value in rule,
     "minimum": lambda value, rule: not _TYPES["number"](value) or value >= rule,
+    "maximum": lambda value, rule: not _TYPES["number"](value) or value <= rule,
+    "exclusiveMinimum": lambda value, rule: not _TYPES["number"](value) or value > rule,
+    "exclusiveMaximum": lambda value, rule: not _TYPES["number"](value) or value < rule,
+    "maxLength": lambda value, rule: not isinstance(value, str) or len(value) <= rule,
+    "maxProperties": lambda value, rule: not isinstance(value, dict) or len(value) <= rule,
     "minLength": lambda value, rule: not isinstance(value, str) or len(value) >= rule,
     "pattern": lambda value, rule: not isinstance(value, str) or bool(re.search(rule, value)),
     "minItems": lambda value, rule: not isinstance(value, list) or len(value) >= rule,
@@ -102,6 +108,20 @@ def _items(value: Any, rule: Any, _: Any, whole: dict[str, Any], at: str) -> Ite
         yield from _faults(one, rule, whole, f"{at}[{number}]")
 
 
+def _first_items(value: Any, rule: Any, _: Any, whole: dict[str, Any], at: str) -> Iterator[str]:
+    for number, (one, own) in enumerate(
+        zip(value if isinstance(value, list) else (), rule, strict=False)
+    ):
+        yield from _faults(one, own, whole, f"{at}[{number}]")
+
+
+def _patterns(value: Any, rule: Any, _: Any, whole: dict[str, Any], at: str) -> Iterator[str]:
+    for name, one in value.items() if isinstance(value, dict) else ():
+        for pattern, own in rule.items():
+            if re.search(pattern, name):
+                yield from _faults(one, own, whole, f"{at}.{name}")
+
+
 def _all(value: Any, rule: Any, _: Any, whole: dict[str, Any], at: str) -> Iterator[str]:
     for one in rule:
         yield from _faults(value, one, whole, at)
@@ -132,6 +152,8 @@ _PARTS: dict[str, Callable[..., Iterator[str]]] = {
     "additionalProperties": _additional,
     "propertyNames": _names,
     "items": _items,
+    "prefixItems": _first_items,
+    "patternProperties": _patterns,
     "allOf": _all,
     "anyOf": _any,
     "not": _not,
