@@ -19,6 +19,7 @@ from veduta.facade.houses import HouseParameters, find_party_walls, house_spans,
 from veduta.facade.margins import width_doubt, without_margins
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.presence import REMEDY, require_building
+from veduta.facade.railing_boxes import on_railings
 from veduta.facade.rectify import Rectified
 from veduta.facade.scale import scale_notes
 from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop, on_their_floors
@@ -211,6 +212,7 @@ def _look_at(
         evidence = gather(rectified.pixels, rectified.valid)
         require_building(evidence)
         size = evidence.width, evidence.height
+        elements = on_railings(elements, seen, evidence)
         sky = find_skyline(evidence, seen.chance_at(size, "sky"))
         named = rectified.record.method == "corners"
         sides = whole(evidence) if named else _sides(evidence, sky, seen, elements, front)
@@ -244,6 +246,7 @@ def _read(
         storeys = storeys_of(inner, skyline, elements, wall, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
     with timed_step(steps, "openings") as step:
+        elements = [e for e in elements if e not in storeys.none]
         elements = on_their_floors(elements, storeys.floors.boundaries)
         columns = columns_of(elements)
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)

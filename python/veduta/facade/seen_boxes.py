@@ -13,6 +13,8 @@ from veduta.facade.eyes import SeenElement
 
 # Widths of a median window that part two columns.
 _NEXT_COLUMN = 0.5
+# Share of the width of a shop below which there are windows and doors: it is their sign.
+_UNDER_SIGN = 0.4
 
 
 def in_crop(
@@ -44,9 +46,9 @@ def on_their_floors(
 ) -> list[SeenElement]:
     """The elements, of which shops and doors are on the ground floor alone.
 
-    A shop above it is an awning or a sign, and left out; a door above it is a window down to the
-    floor. A front without floors (one boundary), or without any opening on its ground floor, keeps
-    both wherever they are.
+    A shop above it is an awning or a sign, and left out, and so is one with windows and doors below
+    it; a door above it is a window down to the floor. A front without floors (one boundary), or
+    without any opening on its ground floor, keeps both wherever they are.
     """
     ground = boundaries[-1]
     on_ground = any(e.kind != "balcony" and 0.5 * (e.y0 + e.y1) >= ground for e in elements)
@@ -60,8 +62,22 @@ def on_their_floors(
             and e.y1 < ground + 0.25 * e.height
         )
 
-    kept = [e for e in elements if not (e.kind == "shop" and is_above(e))]
+    kept = [e for e in elements if e.kind != "shop" or not (is_above(e) or is_sign(e, elements))]
     return [replace(e, kind="window") if is_above(e) else e for e in kept]
+
+
+def is_sign(shop: SeenElement, elements: Sequence[SeenElement]) -> bool:
+    """Whether windows and doors stand below a shop along most of it: then it is what is above them.
+
+    Those that begin within its lower quarter or less than its height below it.
+    """
+    low, far = shop.y1 - 0.25 * shop.height, shop.y1 + shop.height
+    under = [
+        (max(e.x0, shop.x0), min(e.x1, shop.x1))
+        for e in elements
+        if e.kind in ("window", "door") and low <= e.y0 <= far
+    ]
+    return sum(max(0.0, b - a) for a, b in under) > _UNDER_SIGN * shop.width
 
 
 def boxes_of(

@@ -24,6 +24,7 @@ class RowParameters:
     goes on where nothing else says it. `own_ground`: the lowest row is the ground floor's own where
     less than this, in storeys, lies below its sills. `even`: how much the widest step from row to
     row may exceed the narrowest before the storeys are doubtful.
+    `least_even`: so many rows, evenly apart, tell that one between two of them is none.
     `sure`: the score of a window that is; at least `least_sure` of them, and `sure_share` of all,
     must be for storeys to be read from them.
     `cellar_high`, `cellar_near`: the lowest row is that of a cellar where its windows are lower
@@ -41,6 +42,7 @@ class RowParameters:
     ground: float = 0.3
     own_ground: float = 0.72
     even: float = 1.75
+    least_even: int = 3
     sure: float = 0.5
     least_sure: int = 3
     sure_share: float = 0.5
@@ -112,6 +114,27 @@ def is_even(rows: Sequence[WindowRow], eaves: float | None, parameters: RowParam
     below = [r for r in rows if eaves is None or 0.5 * (r.top + r.bottom) > eaves]
     steps = [b.bottom - a.bottom for a, b in pairwise(below)]
     return bool(steps) and max(steps) <= parameters.even * min(steps)
+
+
+def odd_row(
+    rows: Sequence[WindowRow],
+    scores: Sequence[float],
+    eaves: float | None,
+    parameters: RowParameters,
+) -> WindowRow | None:
+    """The one row of doubtful windows without which uneven rows are evenly apart; or None.
+
+    Such are reliefs, niches and signs between the windows of two floors. scores: of the windows.
+    """
+    if len(rows) < parameters.least_even + 1 or is_even(rows, eaves, parameters):
+        return None
+    doubtful = [
+        row
+        for row in rows[1:-1]
+        if float(np.median([scores[i] for i in row.members])) < parameters.sure
+    ]
+    odd = [row for row in doubtful if is_even([r for r in rows if r is not row], eaves, parameters)]
+    return odd[0] if len(odd) == 1 else None
 
 
 def without_cellar(rows: Sequence[WindowRow], parameters: RowParameters) -> list[WindowRow]:

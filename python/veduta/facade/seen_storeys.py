@@ -15,6 +15,7 @@ from veduta.facade.floors import Floors, split_floors
 from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
 from veduta.facade.options import FacadeOptions
 from veduta.facade.rows import gather_rows
+from veduta.facade.seen_foot import is_too_deep, without_strip
 from veduta.facade.seen_rows import (
     RowParameters,
     WindowRow,
@@ -22,6 +23,7 @@ from veduta.facade.seen_rows import (
     are_sure,
     floors_of_rows,
     is_even,
+    odd_row,
     window_rows,
     without_cellar,
     without_roof,
@@ -33,6 +35,7 @@ _PLANE = "storeys: doubtful, so the front is a plane with openings and has no fl
 _UNEVEN = "storeys: the rows of windows are not evenly apart"
 _ONE_ROW = "storeys: there is one row of windows at most"
 _UNSURE = "storeys: most windows are not sure"
+_FOOT = "storeys: what lies below the lowest of them is as high as several"
 
 
 @dataclass(frozen=True)
@@ -64,12 +67,16 @@ _STOREYS = StoreyParameters()
 
 @dataclass(frozen=True)
 class Storeys:
-    """Floors, why they are doubtful, and what ends the front above them."""
+    """Floors, why they are doubtful, and what ends the front above them.
+
+    none: elements that are none: windows in a row of reliefs or signs, shops in a strip.
+    """
 
     floors: Floors
     doubts: list[str]
     gable: Gable | None = None
     roof: RoofKind = "mansard"
+    none: tuple[SeenElement, ...] = ()
 
 
 def storeys_of(
@@ -84,7 +91,12 @@ def storeys_of(
     wall: (h, w) the chance of wall.
     """
     under = _under_gable(evidence, skyline, elements, wall)
-    return under or _storeys(evidence, skyline, elements, wall, options)
+    found = under or _storeys(evidence, skyline, elements, wall, options)
+    if is_too_deep(found.floors, evidence.height):
+        rows, _ = _rows_of([e for e in elements if e.kind == "window"], RowParameters())
+        return Storeys(_plane(rows, skyline, elements), [_PLANE, _FOOT])
+    floors, shops = without_strip(found.floors, elements, evidence.height)
+    return replace(found, floors=floors, none=(*found.none, *shops))
 
 
 def _storeys(
@@ -110,14 +122,17 @@ def _storeys(
     ):
         eaves = top
         plain = without_roof(plain, skyline.level, rows)
+    odd = odd_row(rows, [e.score for e in windows], eaves, parameters)
+    none = () if odd is None else tuple(windows[i] for i in odd.members)
+    rows = [row for row in rows if row is not odd]
     if not are_sure(windows, parameters):
         return Storeys(_plane(rows, skyline, elements), [_PLANE, _UNSURE])
     balconies = [e for e in elements if e.kind == "balcony"]
     if plain is not None and agrees(plain, rows, parameters):
-        return Storeys(with_set_back(plain, rows, balconies, evidence.width), [])
+        return Storeys(with_set_back(plain, rows, balconies, evidence.width), [], none=none)
     floors = floors_of_rows(rows, eaves, top, bottom, parameters, has_cellar=has_cellar)
     if floors is not None and is_even(rows, eaves, parameters):
-        return Storeys(with_set_back(floors, rows, balconies, evidence.width), [])
+        return Storeys(with_set_back(floors, rows, balconies, evidence.width), [], none=none)
     reason = _UNEVEN if len(rows) > 1 else _ONE_ROW
     return Storeys(_plane(rows, skyline, elements), [_PLANE, reason])
 

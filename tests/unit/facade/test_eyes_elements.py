@@ -68,3 +68,16 @@ def test_shop_pixels_in_one_piece_are_one_front() -> None:
 def test_boxes_end_at_the_picture() -> None:
     (element,) = seen_elements(seen_with([("window", (-20.0, 10.0, 40.0, 50.0), 0.9)]))
     assert element.x0 == 0.0
+
+
+def test_shops_that_a_pier_parts_are_several_and_those_of_one_piece_one() -> None:
+    boxes = [
+        ("shop", (40.0, 160.0, 100.0, 240.0), 0.9),
+        ("shop", (112.0, 160.0, 172.0, 240.0), 0.8),
+    ]
+    for between, number in ((0.05, 2), (0.8, 1)):
+        seen = seen_with(boxes)
+        seen.classes[4, 80:120, 20:86] = 0.9
+        seen.classes[4, 84:120, 50:56] = between  # one piece all the same, above
+        seen.classes[1] = 1.0 - seen.classes[4]
+        assert len([e for e in seen_elements(seen) if e.kind == "shop"]) == number

@@ -7,13 +7,15 @@ import pytest
 
 from veduta.facade.eyes import SeenElement
 from veduta.facade.floors import Floors
-from veduta.facade.seen_boxes import boxes_of, columns_of, floor_at, in_crop
+from veduta.facade.seen_boxes import boxes_of, columns_of, floor_at, in_crop, on_their_floors
+from veduta.facade.seen_foot import is_too_deep, without_strip
 from veduta.facade.seen_rows import (
     RowParameters,
     agrees,
     are_sure,
     floors_of_rows,
     is_even,
+    odd_row,
     window_rows,
     without_cellar,
     without_roof,
@@ -131,3 +133,43 @@ def test_what_lies_beside_the_crop_is_left_out() -> None:
     inside, outside = (SeenElement("window", x, 20, x + 40, 80, 0.9) for x in (200, 20))
     (kept,) = in_crop([inside, outside], 0.5, 50, (100, 100))
     assert (kept.x0, kept.y0, kept.x1, kept.y1) == (50, 10, 70, 40)
+
+
+def test_a_row_of_reliefs_between_storeys_is_the_odd_one() -> None:
+    rows = window_rows(grid([50, 150, 225, 250, 350], [10, 60, 110], height=20), PARAMETERS)
+    assert not is_even(rows, None, PARAMETERS)
+    doubtful = set(rows[2].members)
+    scores = [0.4 if i in doubtful else 0.8 for i in range(15)]
+    assert odd_row(rows, scores, None, PARAMETERS) == rows[2]
+    assert odd_row(rows, [0.8] * 15, None, PARAMETERS) is None, "sure windows are windows"
+    even = [rows[0], rows[1], rows[3], rows[4]]
+    assert odd_row(even, [0.4] * 15, None, PARAMETERS) is None, "even rows have none"
+
+
+def test_a_strip_below_the_last_floor_is_no_storey_unless_it_has_a_door() -> None:
+    floors = Floors([0, 100, 200, 300], 100.0, 0.0, {}, 0)
+    sign = SeenElement("shop", 20, 310, 60, 330, 0.6)
+    found, none = without_strip(floors, [sign], 350)
+    assert (found.boundaries, none) == ([0, 100, 200], (sign,))
+    door = SeenElement("door", 20, 305, 40, 350, 0.6)
+    assert without_strip(floors, [sign, door], 350) == (floors, ())
+    assert without_strip(floors, [sign], 390) == (floors, ()), "a low ground floor is one"
+    lowest = Floors([0, 100], 100.0, 0.0, {}, 0)
+    assert without_strip(lowest, [], 130) == (lowest, ()), "one floor is left at least"
+
+
+def test_a_foot_of_many_storeys_is_too_deep() -> None:
+    floors = Floors([0, 100, 200], 100.0, 0.0, {}, 0)
+    assert is_too_deep(floors, 700)
+    assert not is_too_deep(floors, 450)
+    assert not is_too_deep(Floors([0], 100.0, 0.0, {}, 0), 700), "a plane has no foot"
+
+
+def test_a_shop_above_windows_of_the_ground_floor_is_their_sign() -> None:
+    sign = SeenElement("shop", 0, 210, 100, 225, 0.7)
+    panes = [SeenElement("window", x, 228, x + 25, 280, 0.8) for x in (5, 40, 70)]
+    shop = SeenElement("shop", 110, 215, 200, 295, 0.7)
+    kept = on_their_floors([sign, *panes, shop], [0, 100, 200])
+    assert kept == [*panes, shop]
+    awning = SeenElement("shop", 0, 210, 100, 225, 0.7)
+    assert awning in on_their_floors([awning, panes[0], shop], [0, 100, 200])

@@ -20,6 +20,8 @@ Pixels = NDArray[np.uint8]
 _ROOF, _UPPER, _GROUND = range(3)
 # A balcony's pixels spread beyond its rectangle by this share of its height (shadow, handrail).
 BALCONY_SPREAD = 0.08
+# Below it, its slab ends within this share of its height: the model has one of its own.
+SLAB_SPREAD = 0.2
 # Other things spread by this share of a storey.
 SPREAD = 0.02
 # Nothing is filled where more of the picture than this is hidden: it would be all invented.
@@ -128,7 +130,9 @@ def _with_balconies(
     for element in document.elements:
         if element.class_ == "balcony" and not _is_guess_in_roof(element, document):
             spread = BALCONY_SPREAD * element.height_px
-            kinds[pixels_of(element, box, spread)] = KINDS.index("balcony")
+            rows, columns = pixels_of(element, box, spread)
+            slab = rows.stop + round((SLAB_SPREAD - BALCONY_SPREAD) * element.height_px)
+            kinds[rows.start : slab, columns] = KINDS.index("balcony")
     return kinds
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from veduta.facade.eyes.element import SeenElement
 from veduta.facade.eyes.look import BOX_STEP_PX, Seen
-from veduta.facade.eyes.shops import ShopParameters, shop_fronts
+from veduta.facade.eyes.shops import ShopParameters, between_shops, shop_fronts
 
 Boxes = NDArray[np.float64]
 _SHOPS = ShopParameters()
@@ -60,15 +60,24 @@ def _element(kind: str, box: Boxes, score: float) -> SeenElement:
 def _whole_shops(elements: list[SeenElement], seen: Seen) -> list[SeenElement]:
     """Shop fronts in the place of the single shops that they hold.
 
-    Sets differ in what one shop is, a pane or the whole ground floor; a front in one piece is one.
+    Sets differ in what one shop is, a pane or the whole ground floor; a front in one piece is one,
+    but where its single shops are parted by what is none.
     """
-    fronts = [_element("shop", box, min(1.0, chance)) for box, chance in shop_fronts(seen, _SHOPS)]
+    fronts: list[SeenElement] = []
+    gone: set[int] = set()
+    for box, chance in shop_fronts(seen, _SHOPS):
+        front = _element("shop", box, min(1.0, chance))
+        held = [i for i, e in enumerate(elements) if e.kind == "shop" and _has_middle_in(e, front)]
+        own = np.array([[e.x0, e.y0, e.x1, e.y1] for e in (elements[i] for i in held)])
+        if len(held) < 2 or between_shops(seen, own) > _SHOPS.parted:
+            fronts.append(front)
+            gone.update(held)
+    return [e for i, e in enumerate(elements) if i not in gone] + fronts
 
-    def is_held(e: SeenElement) -> bool:
-        x, y = 0.5 * (e.x0 + e.x1), 0.5 * (e.y0 + e.y1)
-        return any(f.x0 <= x <= f.x1 and f.y0 <= y <= f.y1 for f in fronts)
 
-    return [e for e in elements if e.kind != "shop" or not is_held(e)] + fronts
+def _has_middle_in(e: SeenElement, front: SeenElement) -> bool:
+    x, y = 0.5 * (e.x0 + e.x1), 0.5 * (e.y0 + e.y1)
+    return front.x0 <= x <= front.x1 and front.y0 <= y <= front.y1
 
 
 def _peaks(seen: Seen, index: int, least: float) -> tuple[Boxes, NDArray[np.float64]]:
