@@ -26,6 +26,10 @@ def run(arguments: list[str]) -> int:
 
 
 def _run(call: FacadeCall) -> int:
+    if call.eyes.eyes == "learned" and len(call.images) == 1 and call.images[0].is_file():
+        from veduta.facade.eyes import look_soon
+
+        look_soon()  # while the rest is loaded: one photo is read in this process
     from veduta.facade.batch import run_call
     from veduta.run.pool import require_jobs
     from veduta.run.progress import Progress

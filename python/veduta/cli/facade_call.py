@@ -58,9 +58,10 @@ class FacadeCall:
 
     def options(self) -> FacadeOptions:
         """What changes the result; InputError where there is no such style."""
-        from veduta.facade.style import require_style  # what it needs is slow to load
+        if self.style.style is not None:
+            from veduta.facade.style import require_style  # what it needs is slow to load
 
-        require_style(self.style.style)
+            require_style(self.style.style)
         return FacadeOptions(
             eyes=self.eyes,
             rectify=self.rectify,

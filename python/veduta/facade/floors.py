@@ -119,7 +119,8 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
     storeys = _storeys(rows)
     body = rows.distance[rows.ridge :, rows.ridge :]
     unlike = at_offsets(body, len(body))
-    scales = [_scale(s, rows, unlike) for s in storeys]
+    partings = {half: rows.parting(half) for half in sorted({*map(_reach, storeys)})}
+    scales = [_scale(s, rows, unlike, partings[_reach(s)]) for s in storeys]
     solved = _core.floor_chain(rows.distance, scales, _SIMILARITY, _HEIGHT_CHANGE, MAX_FLOORS)
     candidates = [
         _Candidate(found[0] * _trust(storeys[index], rows.bay), index, count, storeys[index])
@@ -242,13 +243,22 @@ def _is_mean(storey: int, boundaries: list[int]) -> bool:
     return abs(mean / storey - 1) <= _MEAN_OFF
 
 
-def _scale(storey: int, rows: Rows, unlike: NDArray[np.float64]) -> Scale:
-    """Heights, neutral dissimilarity and three costs (n + 1,) of a storey height, in grid rows."""
+def _reach(storey: int) -> int:
+    """How far above and below its ends a facade is compared (grid rows)."""
+    return max(2, round(_REACH * storey))
+
+
+def _scale(
+    storey: int, rows: Rows, unlike: NDArray[np.float64], parting: NDArray[np.float64]
+) -> Scale:
+    """Heights, neutral dissimilarity and three costs (n + 1,) of a storey height, in grid rows.
+
+    parting: (n + 1,) that of the rows within `_reach` above and below each border.
+    """
     heights = sorted({round(dm * storey / _MEAN_STOREY_DM) for dm in _HEIGHTS_DM})
     boundary = np.zeros(rows.count + 1)
     around = np.maximum(blur_line(rows.edges, storey / 2), 1e-3)
     boundary[:-1] = _BOUNDARY * (blur_line(rows.edges, storey / 25) / around - 1)
-    parting = rows.parting(max(2, round(_REACH * storey)))
     parting = np.minimum(parting / (np.median(parting[rows.ridge :]) + 1e-6), 4)
     at = np.arange(rows.count + 1)
     roof, ground = at - rows.ridge, rows.count - at

@@ -40,7 +40,7 @@ class Rows:
 
     def parting(self, half: int) -> NDArray[np.float64]:
         """Earth mover's distance between `half` grid rows above and below each (n + 1,)."""
-        return self.histograms.parting(half * self.step)[:: self.step][: self.count + 1]
+        return self.histograms.parting(half * self.step, self.step)[: self.count + 1]
 
 
 def gather_rows(evidence: Evidence, skyline: Skyline, histograms: RowHistograms) -> Rows:

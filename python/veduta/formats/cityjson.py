@@ -94,13 +94,14 @@ class _Rings:
     rings: list[int]
     vertices: list[int]
 
-    def of(self, polygon: int) -> list[list[int]]:
+    def spans(self, polygon: int) -> list[tuple[int, int]]:
+        """From which corner to which each ring of a polygon runs."""
+        first, last = self.polygons[polygon], self.polygons[polygon + 1]
+        return [(self.rings[ring], self.rings[ring + 1]) for ring in range(first, last)]
+
+    def of(self, spans: list[tuple[int, int]]) -> list[list[int]]:
         """The vertices of each ring of a polygon."""
-        ends = self.rings
-        return [
-            self.vertices[ends[ring] : ends[ring + 1]]
-            for ring in range(self.polygons[polygon], self.polygons[polygon + 1])
-        ]
+        return [self.vertices[a:b] for a, b in spans]
 
 
 @dataclass
@@ -110,23 +111,23 @@ class _Appearance:
     part: Part
     pictures: Mapping[Texture, str]
     names: list[str | None] = field(init=False)
+    corners: list[list[float]] = field(init=False)
+    materials: list[int] = field(init=False)
     shown: frame.Shown = field(default_factory=frame.Shown)
 
     def __post_init__(self) -> None:
-        """Look up the picture of each material once."""
+        """Look up the picture of each material once, and bring all corners there at once."""
         textures = [material.texture for material in self.part.materials]
         self.names = [None if one is None else self.pictures.get(one) for one in textures]
+        self.corners = frame.corners_on_picture(self.part.uv) if any(self.names) else []
+        self.materials = self.part.polygon_material.tolist()
 
-    def rings(self, polygon: int) -> list[list[int | None]]:
+    def of(self, polygon: int, spans: list[tuple[int, int]]) -> list[list[int | None]]:
         """What of which picture each ring of a polygon shows."""
-        part = self.part
-        name = self.names[part.polygon_material[polygon]]
-        first, last = part.polygon_offsets[polygon : polygon + 2].tolist()
-        ends = part.ring_offsets
-        return [
-            self.shown.ring(name, part.uv[ends[ring] : ends[ring + 1]])
-            for ring in range(first, last)
-        ]
+        name = self.names[self.materials[polygon]]
+        if name is None:
+            return [[None] for _ in spans]
+        return [self.shown.shown(name, self.corners[a:b]) for a, b in spans]
 
 
 def _solid(
@@ -138,20 +139,23 @@ def _solid(
     boundaries: list[list[list[int]]] = []
     values: list[int] = []
     textures: list[list[list[int | None]]] = []
-    for polygon in part.polygons_of_shell(shell).tolist():
-        feature = int(part.polygon_feature[polygon])
-        kind = (
+    polygons = part.polygons_of_shell(shell)
+    features = part.polygon_feature[polygons].tolist()
+    rises = part.triangles.polygon_normal[polygons, 2].tolist()
+    for polygon, feature, rise in zip(polygons.tolist(), features, rises, strict=True):
+        key = (
+            feature,
             CITYJSON_SURFACE[part.features.semantic(feature)]
             if on_building
-            else _by_direction(float(part.triangles.polygon_normal[polygon, 2]))
+            else _by_direction(rise),
         )
-        key = (feature, kind)
         if key not in number_of:
             number_of[key] = len(surfaces)
-            surfaces.append(surface_entry(part, feature, kind))
+            surfaces.append(surface_entry(part, *key))
         values.append(number_of[key])
-        boundaries.append(rings.of(polygon))
-        textures.append(look.rings(polygon))
+        spans = rings.spans(polygon)
+        boundaries.append(rings.of(spans))
+        textures.append(look.of(polygon, spans))
     if on_building:
         _link_openings(part, surfaces, {feature: row for (feature, _), row in number_of.items()})
     looks = {"texture": (THEME, textures)} if frame.has_pictures(textures) else {}

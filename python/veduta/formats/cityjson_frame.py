@@ -180,12 +180,14 @@ class Shown:
 
     def ring(self, image: str | None, uv: NDArray[np.floating]) -> list[int | None]:
         """What a ring shows: the number of the picture and of each of its corners; or nothing."""
-        if image is None:
-            return [None]
+        return [None] if image is None else self.shown(image, corners_on_picture(uv))
+
+    def shown(self, image: str, corners: Sequence[Sequence[float]]) -> list[int | None]:
+        """The same of a ring whose corners are on the picture already (`corners_on_picture`)."""
         known = self.corners
         return [
             self.images.setdefault(image, len(self.images)),
-            *(known.setdefault((u, v), len(known)) for u, v in corners_on_picture(uv)),
+            *[known.setdefault((u, v), len(known)) for u, v in corners],
         ]
 
     def told(self, theme: str) -> dict[str, Any]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import base64
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Literal
 
-from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
+from jinja2 import Environment, PackageLoader, StrictUndefined, Template, select_autoescape
 
 from veduta.run.names import given_names
 from veduta.run.report import Count, Report
@@ -80,6 +81,12 @@ class Page:
 
 def render(report: Report, page: Page) -> bytes:
     """The page as UTF-8 HTML; everything that comes from a file is escaped."""
+    return given_names(_template().render(report=report, page=page)).encode()
+
+
+@cache
+def _template() -> Template:
+    """The page without its contents; to read it takes longer than to fill it."""
     environment = Environment(
         loader=PackageLoader("veduta.run"),
         autoescape=select_autoescape(default=True, default_for_string=True),
@@ -88,8 +95,7 @@ def render(report: Report, page: Page) -> bytes:
         lstrip_blocks=True,
     )
     environment.filters["figure"] = _figure
-    text = environment.get_template("report.html.j2").render(report=report, page=page)
-    return given_names(text).encode()
+    return environment.get_template("report.html.j2")
 
 
 def _figure(value: object) -> str:

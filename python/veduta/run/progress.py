@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Protocol
-
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
-from rich.progress import Progress as Bar
+from typing import TYPE_CHECKING, Protocol
 
 from veduta.run.pool import Task
 from veduta.run.report import Failure
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
 
 LINE_EVERY_S = 10.0
 """Where there is no terminal, a single item says so often (s) how far it has come."""
@@ -34,7 +34,7 @@ class Progress:
     """How far a call with several items has come; written to standard error."""
 
     def __init__(self, *, quiet: bool = False) -> None:
-        self._console = Console(stderr=True, quiet=quiet, highlight=False)
+        self._quiet = quiet
         self._bar: Bar | None = None
         self._in_hand: list[str] = []
         self._total = 0
@@ -50,13 +50,10 @@ class Progress:
         """
         self._total, self._done, self._steps = total, 0, []
         self._said_at = time.monotonic()
-        if not self._console.is_terminal or self._console.quiet:
+        if self._quiet or not _is_terminal():
             yield
             return
-        count = (MofNCompleteColumn(),) if total != 1 else ()
-        text = TextColumn("{task.description}", markup=False)
-        columns = (BarColumn(24), *count, TimeElapsedColumn(), text)
-        self._bar = Bar(*columns, console=self._console, transient=True)
+        self._bar = _bar(counts=total != 1)
         try:
             with self._bar:
                 self._bar.add_task("", total=steps if total == 1 else total)
@@ -66,7 +63,7 @@ class Progress:
 
     def said(self, text: str) -> None:
         """A line about work that is no item of a call."""
-        if not self._console.quiet:
+        if not self._quiet:
             sys.stderr.write(f"{text}\n")
             sys.stderr.flush()
 
@@ -98,7 +95,7 @@ class Progress:
         if self._bar is not None:
             if self._total != 1:
                 self._bar.advance(self._bar.task_ids[0])
-        elif not self._console.quiet and self._total > 1:
+        elif not self._quiet and self._total > 1:
             state = "failed" if failure else "done"
             sys.stderr.write(f"[{self._done}/{self._total}] {name}: {state}\n")
             sys.stderr.flush()
@@ -109,3 +106,22 @@ class Progress:
             names = ", ".join(self._in_hand)
             text = f"{names}: {step}" if step else names
             self._bar.update(self._bar.task_ids[0], description=text)
+
+
+def _is_terminal() -> bool:
+    """Whether a bar can be drawn there, or is asked for all the same."""
+    return sys.stderr.isatty() or bool(os.environ.get("FORCE_COLOR"))
+
+
+def _bar(*, counts: bool) -> Bar:
+    """A bar at the foot of the terminal; counts: how many of the items are done, too."""
+    # Loaded where it is used: most calls have no terminal, or are over before it would be read.
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    count = (MofNCompleteColumn(),) if counts else ()
+    text = TextColumn("{task.description}", markup=False)
+    columns = (BarColumn(24), *count, TimeElapsedColumn(), text)
+    console = Console(stderr=True, highlight=False)
+    return Bar(*columns, console=console, transient=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.facade.analyse import analyse_plain
+from veduta.facade.analyse_plain import analyse_plain
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
 from veduta.facade.rectify import Rectified, rectify

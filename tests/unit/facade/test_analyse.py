@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from drawn_facade import DrawnFacade, analysed, draw_facade, rectified_of
 
-from veduta.facade.analyse import analyse_plain
+from veduta.facade.analyse_plain import analyse_plain
 from veduta.facade.document import Element, FacadeDocument, Source
 from veduta.facade.options import FacadeOptions
 from veduta.run.errors import NotFoundError

@@ -58,7 +58,7 @@ def test_the_bar_of_one_item_moves_with_its_steps(
 ) -> None:
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(progress_module, "BarColumn", lambda _: TaskProgressColumn())
+    monkeypatch.setattr("rich.progress.BarColumn", lambda _: TaskProgressColumn())
     progress = Progress()
     with progress.over(1, steps=4):
         progress.started(Task("a", None))

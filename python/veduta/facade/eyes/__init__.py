@@ -3,7 +3,7 @@
 from veduta.facade.eyes.believed import BeliefParameters, believed
 from veduta.facade.eyes.element import SeenElement
 from veduta.facade.eyes.elements import ElementParameters, seen_elements
-from veduta.facade.eyes.look import Seen, look
+from veduta.facade.eyes.look import Seen, look, look_soon
 
 __all__ = [
     "BeliefParameters",
@@ -12,5 +12,6 @@ __all__ = [
     "SeenElement",
     "believed",
     "look",
+    "look_soon",
     "seen_elements",
 ]

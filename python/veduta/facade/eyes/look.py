@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import threading
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -23,6 +25,7 @@ LONG_SIDE_PX = 896
 _STRIDE = 32
 BOX_STEP_PX = 4
 _THREADS = 2
+_READING = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -77,9 +80,24 @@ def look(pixels: NDArray[np.uint8]) -> Seen:
     )
 
 
-@cache
+def look_soon() -> None:
+    """Begin to read the network in a thread of its own, while the caller prepares the picture."""
+    threading.Thread(target=_read_ahead).start()  # no daemon: it ends well before the process does
+
+
+def _read_ahead() -> None:
+    with contextlib.suppress(Exception):  # whoever looks meets the same fault, and tells it
+        _network()
+
+
 def _network() -> tuple[onnxruntime.InferenceSession, tuple[str, ...], tuple[str, ...]]:
-    """The network, and what it names; read once in a process."""
+    """The network, and what it names; read once in a process, by whoever comes first."""
+    with _READING:
+        return _read_network()
+
+
+@cache
+def _read_network() -> tuple[onnxruntime.InferenceSession, tuple[str, ...], tuple[str, ...]]:
     import onnxruntime  # loaded where it is used: it takes longer than the rest of the package
 
     options = onnxruntime.SessionOptions()
