@@ -115,7 +115,7 @@ def _roof_provenance(document: FacadeDocument) -> Provenance:
 
 
 def _with_photo(part: Part, known: Mapping[str, Known], wall_px: Rect) -> Features:
-    """The features, with where the photo shows them, and the sizes that the plan has for them."""
+    """The features, with where the photo shows them, how sure they are, and the plan's sizes."""
     features = part.features
     rows = [known.get(name) for name in features.name]
     derived = zip(features.width_m.tolist(), features.height_m.tolist(), strict=True)
@@ -124,12 +124,14 @@ def _with_photo(part: Part, known: Mapping[str, Known], wall_px: Rect) -> Featur
     rects = [_NO_RECT if element is None else photo_rect(element) for element in elements]
     rects[features.name.index(FRONT)] = wall_px
     seen = [np.nan if row is None else row.seen_height_m for row in rows]
+    scores = [np.nan if element is None else element.score for element in elements]
     return replace(
         features,
         width_m=np.array([width for width, _ in sizes]),
         height_m=np.array([height for _, height in sizes]),
         photo_px=np.array(rects, dtype=np.float64).reshape(-1, 4),
         seen_height_m=np.array(seen, dtype=np.float64),
+        score=np.array(scores, dtype=np.float64),
     )
 
 

@@ -178,7 +178,7 @@ def surface_entry(part: Part, feature: int, kind: str) -> dict[str, Any]:
         features.semantic(feature).value,
         features.provenance(feature).value,
     )
-    for name in ("width_m", "height_m", "seen_height_m"):
+    for name in ("width_m", "height_m", "seen_height_m", "score"):
         size = float(getattr(features, name)[feature])
         if not math.isnan(size):
             surface[name] = round(size, 4)

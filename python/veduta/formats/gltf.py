@@ -117,9 +117,11 @@ def glb_bytes(
 
 
 def feature_columns(part: Part | Mesh) -> dict[str, list[Any]]:
-    """The feature table as JSON columns; NaN becomes null."""
+    """The feature table as JSON columns; NaN becomes null. Scores only where one is said."""
     features: Features = part.features
     rows = range(len(features))
+    scores = [_rounded(value) for value in features.score.tolist()]
+    said = any(value is not None for value in scores)
     return {
         "id": list(features.id),
         "class": [features.semantic(row).value for row in rows],
@@ -134,6 +136,7 @@ def feature_columns(part: Part | Mesh) -> dict[str, list[Any]]:
             for rect in features.photo_px.tolist()
         ],
         "seen_height_m": [_rounded(value) for value in features.seen_height_m.tolist()],
+        **({"score": scores} if said else {}),
         "shell": features.shell.tolist(),
     }
 

@@ -179,8 +179,9 @@ def features_of(columns: dict[str, list[Any]]) -> Features:
         photo_px=np.array(
             [unseen if rect is None else rect for rect in columns["photo_px"]], dtype=np.float64
         ).reshape(-1, 4),
-        # A model of an older Veduta does not say it.
+        # A model of an older Veduta does not say the one, most models not the other.
         seen_height_m=_sizes(columns.get("seen_height_m", [None] * len(columns["id"]))),
+        score=_sizes(columns.get("score", [None] * len(columns["id"]))),
     )
 
 

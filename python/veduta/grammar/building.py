@@ -194,6 +194,7 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
         height_m=derived.feature_size_m[used, 1],
         photo_px=np.full((total, 4), np.nan),
         seen_height_m=np.full(total, np.nan),
+        score=np.full(total, np.nan),
     )
 
 

@@ -43,6 +43,7 @@ def ground_part(part_id: str, points_m: NDArray[np.float64], triangles: NDArray[
             height_m=np.full(1, np.nan),
             photo_px=np.full((1, 4), np.nan),
             seen_height_m=np.full(1, np.nan),
+            score=np.full(1, np.nan),
         ),
         materials=(Material(SemanticClass.GROUND.value, COLOUR, roughness=0.95),),
     )

@@ -170,6 +170,7 @@ def _paper(part: Part) -> Part:
         height_m=np.full(1, np.nan),
         photo_px=np.full((1, 4), np.nan),
         seen_height_m=np.full(1, np.nan),
+        score=np.full(1, np.nan),
     )
     return Part(
         id="paper",

@@ -143,6 +143,7 @@ class PartBuilder:
                 height_m=np.array(heights, dtype=np.float64),
                 photo_px=np.array(rects, dtype=np.float64).reshape(-1, 4),
                 seen_height_m=np.array(seen, dtype=np.float64),
+                score=np.full(len(ids), np.nan),
             ),
             materials=tuple(self._materials),
             attributes=dict(self.attributes),

@@ -34,4 +34,5 @@ def feature_table(part_id: str, rows: Sequence[FeatureRow]) -> Features:
         height_m=nothing.copy(),
         photo_px=np.full((count, 4), np.nan),
         seen_height_m=nothing.copy(),
+        score=nothing.copy(),
     )

@@ -37,6 +37,7 @@ class Features:
     photo_px: (f, 4) float64, x, y, width, height in the rectified photo; NaN where unseen.
     seen_height_m: (f,) float64, how much of height_m was seen, from the top, where a rule makes
     the surface reach further down; NaN elsewhere.
+    score: (f,) float64, how sure it was, 0..1, where what read the record says it; NaN elsewhere.
     """
 
     id: tuple[str, ...]
@@ -49,6 +50,7 @@ class Features:
     height_m: NDArray[np.float64]
     photo_px: NDArray[np.float64]
     seen_height_m: NDArray[np.float64]
+    score: NDArray[np.float64]
 
     def __len__(self) -> int:
         return len(self.id)

@@ -71,4 +71,5 @@ def _table(features: tuple[Feature, ...], part_id: str, as_other: bool) -> Featu
         height_m=size[:, 1],
         photo_px=np.full((count, 4), np.nan),
         seen_height_m=np.full(count, np.nan),
+        score=np.full(count, np.nan),
     )

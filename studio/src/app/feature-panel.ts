@@ -2,7 +2,7 @@
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { CLASS_LOOKS, PROVENANCE_LOOKS } from "../core/classes.ts";
 import { countCarried, type Feature, type FeatureTable } from "../core/features.ts";
-import { areaText, countText, seenText, sizeText } from "../core/wording.ts";
+import { areaText, countText, scoreText, seenText, sizeText } from "../core/wording.ts";
 import { icons } from "./icons.ts";
 import "./photo-region.ts";
 import { theme } from "./theme.ts";
@@ -225,8 +225,14 @@ function provenance(feature: Feature): TemplateResult {
       <span class="swatch" .style=${`background:${look.colour}`}></span>
       <strong data-field="provenance">${look.label}</strong>
       <p>${partly ? PARTLY_SEEN : look.meaning}</p>
+      ${score(feature)}
     </div>
   </section>`;
+}
+
+function score(feature: Feature): TemplateResult | typeof nothing {
+  const text = scoreText(feature.score);
+  return text === "" ? nothing : html`<p data-field="score">${text}</p>`;
 }
 
 function building(shown: ShownFeature): TemplateResult {

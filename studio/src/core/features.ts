@@ -24,6 +24,8 @@ export interface Feature {
   readonly photo_px: PhotoRectangle | null;
   /** How much of the height was seen, from the top, where a rule makes it reach further down. */
   readonly seen_height_m: number | null;
+  /** How sure it was, 0 to 1, where what read the record says it. */
+  readonly score: number | null;
 }
 
 /** The mesh's `_FEATURE_ID_0` is the row of the face's feature, as in EXT_mesh_features. */
@@ -44,8 +46,8 @@ const COLUMNS = [
   "area_m2",
   "photo_px",
 ] as const;
-/** Columns that a model of an older Veduta does not have: all of their cells are then null. */
-const LATER_COLUMNS = ["seen_height_m"] as const;
+/** Columns that models of an older Veduta, or most models, do not have: all cells are then null. */
+const LATER_COLUMNS = ["seen_height_m", "score"] as const;
 type Column = (typeof COLUMNS)[number] | (typeof LATER_COLUMNS)[number];
 const REMEDY = "Write the model again with this version of Veduta.";
 
@@ -103,6 +105,7 @@ function readRow(table: Record<Column, unknown[]>, row: number, file: string): F
     area_m2: size("area_m2"),
     photo_px: readRectangle(table.photo_px[row], () => bad("photo_px")),
     seen_height_m: size("seen_height_m"),
+    score: size("score"),
   };
 }
 

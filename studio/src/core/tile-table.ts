@@ -143,6 +143,7 @@ export class TileTable implements FeatureTable {
       area_m2: null,
       photo_px: null,
       seen_height_m: null,
+      score: null,
     };
   }
 }

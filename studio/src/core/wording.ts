@@ -17,6 +17,12 @@ export function seenText(seen_height_m: number | null): string {
   return seen_height_m === null ? "" : `(height seen: ${metresText(seen_height_m)})`;
 }
 
+/** How sure an element was when it was read; empty where nothing says it. */
+export function scoreText(score: number | null): string {
+  if (score === null) return "";
+  return `${score < 0.5 ? "Doubtful: score" : "Score"} ${score.toFixed(2)} of 1.`;
+}
+
 export function areaText(area_m2: number | null): string {
   if (area_m2 === null) return "–";
   return `${area_m2 < 100 ? area_m2.toFixed(2) : area_m2.toFixed(0)} m²`;

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { childrenOf, countCarried, countClasses, countProvenances, readFeatureTable } from "../../src/core/features.ts";
 import { Fault } from "../../src/core/fault.ts";
+import { scoreText } from "../../src/core/wording.ts";
 
 function columns(): Record<string, unknown[]> {
   return {
@@ -31,6 +32,7 @@ describe("the feature table", () => {
       area_m2: 1.98,
       photo_px: [40, 50, 44, 72],
       seen_height_m: null,
+      score: null,
     });
     expect(rows[3]?.width_m).toBeNull();
     expect(rows[0]?.parent).toBeNull();
@@ -58,6 +60,14 @@ describe("the feature table", () => {
     expect(read([null, 1.3, null, null])).toEqual([null, 1.3, null, null]);
     expect(() => read([null, "much", null, null])).toThrow("seen_height_m");
     expect(() => read([1.3])).toThrow("seen_height_m");
+  });
+
+  it("says how sure an element was, where the model does", () => {
+    const read = (scores: unknown[]): unknown =>
+      readFeatureTable({ ...columns(), score: scores }, "m").rows.map((row) => row.score);
+    expect(read([null, 0.83, 0.4, null])).toEqual([null, 0.83, 0.4, null]);
+    expect(() => read([null, "sure", null, null])).toThrow("score");
+    expect([null, 0.83, 0.4].map(scoreText)).toEqual(["", "Score 0.83 of 1.", "Doubtful: score 0.40 of 1."]);
   });
 
   it("ignores columns that it does not know", () => {

@@ -109,8 +109,10 @@ def test_openings_name_their_wall_and_their_photo(part: Part) -> None:
     said = [part.features.provenance(row) for row in windows]
     # The sample's second and third floors have balconies, which hide the foot of each window.
     assert (said.count(Provenance.MEASURED), said.count(Provenance.INFERRED)) == (12, 8)
+    assert np.isnan(part.features.score[wall]), "a wall has no score"
     for row in windows:
         assert np.isfinite(part.features.photo_px[row]).all()
+        assert 0.0 <= part.features.score[row] <= 1.0, "it says how sure it was"
         assert part.features.width_m[row] == pytest.approx(1.2, abs=0.3)
 
 

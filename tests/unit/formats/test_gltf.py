@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import trimesh
 from sample_document import sample_document, sample_photo
 
 from veduta.facade.model import build_part
-from veduta.formats.gltf import glb_bytes, read_glb, write_glb
+from veduta.formats.gltf import feature_columns, glb_bytes, read_glb, write_glb
 from veduta.place.builder import PartBuilder
 from veduta.place.material import Material
 from veduta.place.part import Part
@@ -43,7 +44,7 @@ def test_read_back_features_and_areas(part: Part, tmp_path: Path) -> None:
     assert back.features.name == part.features.name
     for column in ("class_code", "provenance_code", "parent", "shell"):
         assert np.array_equal(getattr(back.features, column), getattr(part.features, column))
-    for column in ("width_m", "height_m", "photo_px", "seen_height_m"):
+    for column in ("width_m", "height_m", "photo_px", "seen_height_m", "score"):
         np.testing.assert_allclose(
             getattr(back.features, column), getattr(part.features, column), atol=1e-4
         )
@@ -51,6 +52,17 @@ def test_read_back_features_and_areas(part: Part, tmp_path: Path) -> None:
     assert back.bounds_m == part.bounds_m
     assert back.attributes == part.attributes
     assert [path.name for path in tmp_path.iterdir()] == ["model.glb"]
+
+
+def test_scores_are_written_where_something_has_one(part: Part) -> None:
+    sure = np.full(len(part.features), np.nan)
+    assert "score" not in feature_columns(
+        replace(part, features=replace(part.features, score=sure))
+    )
+    sure[1] = 0.4321987
+    column = feature_columns(replace(part, features=replace(part.features, score=sure)))["score"]
+    assert (column[0], column[1]) == (None, 0.4322)
+    assert np.isfinite(part.features.score).any(), "the sample's elements have scores"
 
 
 def test_read_back_materials(part: Part, tmp_path: Path) -> None:

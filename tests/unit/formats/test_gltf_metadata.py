@@ -55,6 +55,7 @@ def wall_and_roof() -> Mesh:
             height_m=np.array([np.nan, 3.0, 1.0]),
             photo_px=np.full((3, 4), np.nan),
             seen_height_m=np.full(3, np.nan),
+            score=np.full(3, np.nan),
         ),
         materials=(Material("wall"), Material("unused"), Material("brick", colour=(0.5, 0.2, 0.1))),
         triangle_feature=np.array([0, 1, 2], dtype=np.int32),
