@@ -17,7 +17,7 @@ from veduta.facade.rectangles import Rectangle, carve
 GAP_M = 0.05
 # An opening smaller than this in either direction is left out (m).
 SMALLEST_M = 0.2
-# Thickness of a balcony's slab (m).
+# Thickness of a balcony's slab, which lies below its railing (m).
 SLAB_M = 0.15
 # A window whose lower edge is at most this far above a balcony's railing opens onto it (m).
 RAILING_REACH_M = 0.4
@@ -226,10 +226,10 @@ def _down_to_balcony(wanted: Rectangle, balconies: Sequence[Rectangle]) -> Recta
     """The railing of a balcony hides the lower part of the window behind it."""
     for balcony in balconies:
         beside = min(wanted.x1, balcony.x1) - max(wanted.x0, balcony.x0)
-        floor = balcony.z0 + SLAB_M
-        if beside < 0.5 * wanted.width or not floor < wanted.z0 < balcony.z1 + RAILING_REACH_M:
+        within = balcony.z0 < wanted.z0 < balcony.z1 + RAILING_REACH_M
+        if beside < 0.5 * wanted.width or not within:
             continue
-        return Rectangle(wanted.x0, floor, wanted.x1, wanted.z1)
+        return Rectangle(wanted.x0, balcony.z0, wanted.x1, wanted.z1)
     return wanted
 
 

@@ -131,7 +131,7 @@ def test_window_behind_a_balcony_reaches_down_to_its_floor() -> None:
     document = sample_document(elements=[window, balcony])
     part = build_part(document, sample_photo(document), "x")
     row = rows(part, SemanticClass.WINDOW)[0]
-    assert part.features.height_m[row] == pytest.approx(2.5 - 0.15)
+    assert part.features.height_m[row] == pytest.approx(2.5)
     assert part.features.seen_height_m[row] == pytest.approx(1.5)
     assert part.features.provenance(row) is Provenance.INFERRED
     assert_closed(part)

@@ -139,7 +139,8 @@ BALCONIES = """
 LongBalcony(foot, high, beside) -->
     split(x) { beside : NIL | ~1 : Balcony(foot, high, deep) | beside : NIL }
 
-Balcony(foot, high, out) --> set(provenance, seen) t(0, foot, 0) s('1, high, 0) Railed(out)
+Balcony(foot, high, out) -->
+    set(provenance, seen) t(0, foot - 0.15, 0) s('1, high + 0.15, 0) Railed(out)
 
 Railed(out) --> split(y) { 0.15 : Slab(out) | ~1 : railings.RailingIron(out) }
 Slab(out) --> set(material.name, "balcony") s('1, '1, out) i("builtin/block")
