@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
 
+from pycolmap import Reconstruction
+
 from veduta.photos.cameras.component import Component, finish_component
 from veduta.photos.cameras.plausible import absurd, cameras_by_group, focal_lengths
 from veduta.photos.intake.call import Call
@@ -14,7 +16,8 @@ from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos, with
 from veduta.photos.mapping.at_once import require_focal_lengths
 from veduta.photos.mapping.mapping import left_out
 from veduta.photos.mapping.one_camera import TOLD, mapped_as_of_one_camera
-from veduta.photos.mapping.rigs import mapped_with_rig
+from veduta.photos.mapping.panorama_rigs import snapped, views_among
+from veduta.photos.mapping.rigs import map_with_panoramas, mapped_with_rig
 from veduta.photos.mapping.settling import Settled, map_settled
 from veduta.photos.matching.features import FeaturesJob, memory_of, run_features
 from veduta.photos.matching.match import (
@@ -94,17 +97,25 @@ def find_components(
         if not mapped.models:
             raise NotFoundError("cameras", "no photos hang together", _NOTHING_HANGS)
     with timed_step(told.steps, "cameras") as step:
-        names = {photo.image_id: photo.name for photo in read.photos}
-        held = told.rig is not None and told.rig.held
-        given = options.camera.focal_px is not None
-        found = [structure_of(model, names) for model in mapped.models]
-        grown = [replace(one, rig_held=held, focal_held=given) for one in found]
+        grown = _structures(mapped.models, read, options, told)
         components, left = finish_components(grown, read.photos, options, progress)
         told.left += left
         told.notes += [note for component in components for note in component.notes]
         step.rejected.extend(f"{name}: {reason}" for name, reason in left)
         step.counts["kinds tried"] = sum(len(component.lens.tried) for component in components)
     return components
+
+
+def _structures(
+    models: Sequence[Reconstruction], read: ReadPhotos, options: PhotosOptions, told: Told
+) -> list[Structure]:
+    """The columns of what was mapped, with what is known of lenses and of rigs."""
+    names = {photo.image_id: photo.name for photo in read.photos}
+    held = told.rig is not None and told.rig.held
+    given = options.camera.focal_px is not None
+    views = views_among(read.photos)
+    found = [structure_of(model, names) for model in models]
+    return [snapped(replace(one, rig_held=held, focal_held=given, views=views)) for one in found]
 
 
 def finish_components(
@@ -249,6 +260,9 @@ def _map(
 ) -> tuple[Settled, PhotosOptions]:
     """The components, and the options for what follows; a killed run's are not mapped again."""
     ids = [photo.image_id for photo in read.photos]
+    around = map_with_panoramas(read.photos, options, stages, progress)
+    if around is not None:
+        return around, options
     with writing_to(stages.out):
         settled = map_settled(
             stages.database(),

@@ -49,8 +49,6 @@ def _idle(options: PhotosOptions, given: Given) -> Iterator[_Idle]:
         fault = "has no use with --rig: {}"
         shared = fault.format("all photos of a folder are of one camera")
         yield _Idle("camera", shared, "Leave one of the two out.", ("cameras",))
-        around = fault.format("a panorama is a rig of its own")
-        yield _Idle("camera", around, "Leave one of the two out.", ("panoramas",))
         one = fault.format("it is of one camera, and a rig has several")
         yield _Idle("camera", one, "Leave one of the two out.", ("focal_px",))
         once = fault.format("its poses are found from a map that grew photo by photo")

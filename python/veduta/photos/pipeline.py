@@ -23,6 +23,7 @@ from veduta.photos.stages import COMMAND, VERSION, Stages
 from veduta.photos.world.control_adjust import adjust_components
 from veduta.photos.world.control_axes import settled_axes
 from veduta.photos.world.control_marks import marks_within, unknown_marks
+from veduta.photos.world.control_panoramas import marks_in_views
 from veduta.photos.world.georeferencing import digests_of, read_references, require_walls
 from veduta.photos.writing import write_failure, write_results
 from veduta.run.digests import result_key
@@ -115,8 +116,10 @@ def _make(
     told.positions = references.positions
     if references.control is not None:
         names = [source.name for source in call.sources] + [name for name, _ in call.copies]
-        told.marks = unknown_marks(references.control, names)
-        control, outside = marks_within(references.control, sizes_of(call.sources))
+        control, above = marks_in_views(references.control, call.sources)
+        references = replace(references, control=control)
+        told.marks = unknown_marks(control, names) + above
+        control, outside = marks_within(control, sizes_of(call.sources))
         references = replace(references, control=control)
         told.marks += outside
     try:

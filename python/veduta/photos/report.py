@@ -25,7 +25,13 @@ from veduta.photos.report_doubts import (
     doubts_table,
 )
 from veduta.photos.report_pictures import error_picture, match_picture, plan_picture
-from veduta.photos.report_rig import rig_alarms, rig_measures, rig_table
+from veduta.photos.report_rig import (
+    panorama_measures,
+    panorama_notes,
+    rig_alarms,
+    rig_measures,
+    rig_table,
+)
 from veduta.photos.report_starts import GLOBAL_NOTE, starts_notes, starts_table
 from veduta.photos.texture.step import Textured
 from veduta.photos.walls.report import walls_pictures, walls_table
@@ -50,6 +56,7 @@ FILES = (
     ("pictures/", "the photos without the distortion of the lens, as the studio shows them"),
     ("walls.json", "the walls that the points speak for: ends, heights, and their pictures"),
     ("walls/", "a metric picture of each wall (transparent: not seen), and `walls.glb`"),
+    ("panoramas.json", "where each panorama that was cut into views stands, and how it is turned"),
     ("georef.json", "where the place lies in the world, how well that is known, and why"),
     ("model.city.json", "the city model with textures, where photos lie in one (CityJSON)"),
     ("textures/", "its pictures, and of each a mask: white where no photo shows it"),
@@ -138,6 +145,7 @@ def measures_of(told: Told) -> dict[str, Any]:
         **georef_measures([one.georef for one in told.laid]),
         **({} if told.textured is None else told.textured.measures),
         **rig_measures(told.rig),
+        **panorama_measures([one.structure for one in told.components]),
     }
 
 
@@ -215,6 +223,8 @@ def _files(told: Told) -> list[tuple[str, str]]:
     missing = set()
     if not any(photo.video for photo in told.photos):
         missing.add("frames/")
+    if not any(photo.view for photo in told.photos):
+        missing.add("panoramas.json")
     if not told.walls.pictures:
         missing.add("walls/")
     if told.textured is None:
@@ -249,7 +259,7 @@ def _notes(told: Told) -> list[str]:
     notes = [] if in_world else [SCALE_NOTE]
     notes += [_up_note(told.components[0]), *georef_notes(georef), *told.notes]
     notes += [f"control points, {mark}" for mark in told.marks]
-    notes += [*told.alarms, *rig_alarms(told.rig)]
+    notes += [*told.alarms, *rig_alarms(told.rig), *panorama_notes(told.photos)]
     notes += [] if told.textured is None else [told.textured.line]
     notes += [f"{photo.name}: {note}" for photo in told.photos for note in photo.notes]
     unknown = sum(photo.focal_px is None for photo in told.photos)

@@ -13,6 +13,7 @@ from veduta.photos.mapping.rigs import RigTold
 from veduta.photos.rigged import rigs_among
 from veduta.photos.structure import Structure
 from veduta.run.page import Table
+from veduta.run.report import counted
 
 _NOTE = (
     "From the first camera, in its own axes and in the unit of the result. All frames have the"
@@ -20,17 +21,44 @@ _NOTE = (
 )
 
 
+_PANORAMAS = (
+    "{} are in the result as {} views each, which are pinhole photos from one place: sparse/,"
+    " place.json and textures know no lens that shows all around. Where the panoramas themselves"
+    " stand, and how they are turned, is in panoramas.json"
+)
+
+
 def rig_measures(rig: RigTold | None) -> dict[str, Any]:
     """The rig in numbers; nothing where there is none."""
     if rig is None:
         return {}
-    known = [] if rig.poses is None else sorted(rig.poses.cam_from_rig)
+    known = [] if rig.poses is None else sorted(rig.known)
     return {
         "rig_cameras": known,
         "rig_given": rig.held,
         "placed_without_rig": rig.alone,
         "placed_with_rig": rig.together,
     }
+
+
+def panorama_measures(placed: Sequence[Structure]) -> dict[str, Any]:
+    """How many panoramas are placed; nothing where there are none.
+
+    placed: of each component.
+    """
+    views = {one.views[i].panorama for one in placed for i in one.image_ids if i in one.views}
+    return {"panoramas": len(views)} if views else {}
+
+
+def panorama_notes(photos: Sequence[PhotoRecord]) -> list[str]:
+    """What the files of the result hold of panoramas, and what they do not."""
+    views = [photo.view for photo in photos if photo.view is not None]
+    if not views:
+        return []
+    names = {view.panorama for view in views}
+    return [
+        _PANORAMAS.format(counted(len(names), "panorama"), len({view.number for view in views}))
+    ]
 
 
 def rig_alarms(rig: RigTold | None) -> list[str]:
@@ -73,11 +101,15 @@ def rig_table(
         return []
     camera_of = {
         structure.camera_of[photo.image_id]: photo.mount.camera
+        if photo.view is None
+        else f"{photo.view.body} (panorama)"
         for photo in photos
         if photo.mount is not None and photo.image_id in poses
     }
-    rows = []
+    rows: list[tuple[str, int, float, float, float, float]] = []
     for camera, pose in found[0].cam_from_rig.items():
+        if camera_of.get(camera) in [row[0] for row in rows]:
+            continue  # views of one panorama, of which the first stands for all
         right, down, ahead = (-pose[:, :3].T @ pose[:, 3]).tolist()
         turn = np.rad2deg(np.arccos(np.clip((np.trace(pose[:, :3]) - 1.0) / 2.0, -1.0, 1.0)))
         frames = sum(

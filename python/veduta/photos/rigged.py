@@ -7,7 +7,7 @@ know of rigs.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,11 +29,15 @@ class RigFound:
 
 
 def rigs_among(
-    poses: Mapping[int, Floats], camera_of: Mapping[int, int], frame_of: Mapping[int, int]
+    poses: Mapping[int, Floats],
+    camera_of: Mapping[int, int],
+    frame_of: Mapping[int, int],
+    first: Container[int] = (),
 ) -> list[RigFound]:
     """The rigs of photos, by the least camera id. poses: (3, 4) cam_from_world by image id.
 
-    Cameras that no frame ties to another are of no rig, and their photos free.
+    Cameras that no frame ties to another are of no rig, and their photos free. first: cameras of
+    which one is the rig's, where it has any.
     """
     frames: dict[int, dict[int, int]] = {}
     for image in sorted(frame_of.keys() & poses.keys()):
@@ -49,7 +53,9 @@ def rigs_among(
             if images.keys() & known.keys()
         }
         if len(known) > 1:
-            found.append(RigFound({camera: known[camera] for camera in sorted(known)}, own))
+            order = sorted(known, key=lambda camera: (camera not in first, camera))
+            base = known[order[0]]
+            found.append(RigFound({one: between(base, known[one]) for one in order}, own))
     return found
 
 
@@ -74,9 +80,9 @@ def _tied_to(
 
 
 def rig_of(number: int, cam_from_rig: Mapping[int, Floats]) -> pycolmap.Rig:
-    """The engine's rig of cameras by their ids; the least of them is its reference."""
+    """The engine's rig of cameras by their ids; the first of them is its reference."""
     rig = pycolmap.Rig(rig_id=number)
-    order = sorted(cam_from_rig)
+    order = list(cam_from_rig)
     for camera in order:
         sensor = pycolmap.sensor_t(type=pycolmap.SensorType.CAMERA, id=camera)
         if camera == order[0]:
@@ -109,6 +115,31 @@ def add_rig(
             images[image_id].frame_id = frame_id
             model.add_image(images[image_id])
         model.register_frame(frame_id)
+
+
+def fixed_to_each_other(
+    model: pycolmap.Reconstruction, bodies: Mapping[int, str]
+) -> list[pycolmap.sensor_t]:
+    """The sensors whose places on their rig are known: those of the body of its reference.
+
+    bodies: of cameras by their ids.
+    """
+    return [
+        sensor
+        for rig in model.rigs.values()
+        if rig.num_sensors() > 1 and rig.ref_sensor_id.id in bodies
+        for sensor in rig.non_ref_sensors
+        if bodies.get(sensor.id) == bodies[rig.ref_sensor_id.id]
+    ]
+
+
+def has_length(model: pycolmap.Reconstruction) -> bool:
+    """Whether some cameras of a rig stand apart from each other: panoramas alone do not."""
+    return any(
+        pose is not None and np.linalg.norm(pose.translation) > 0.0
+        for rig in model.rigs.values()
+        for pose in rig.non_ref_sensors.values()
+    )
 
 
 def frames_in(model: pycolmap.Reconstruction) -> dict[int, int]:

@@ -7,6 +7,7 @@ kept once the run is finished.
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,7 +21,7 @@ from veduta.run.digests import result_key
 from veduta.run.outputs import writing_to
 from veduta.run.record import PRIVATE
 
-VERSION = "17"
+VERSION = "18"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = "photos"
 FOLDER = f"{PRIVATE}/photos"
@@ -49,9 +50,9 @@ class Stages:
         key = result_key("video", VERSION, self.options.video, [video.name, video.sha256])
         return self.folder / f"frames-{key[:24]}"
 
-    def views(self, panoramas: list[str]) -> Path:
-        """The views that panoramas with these digests were cut into."""
-        told: list[JsonValue] = [*panoramas]
+    def views(self, panoramas: Sequence[tuple[str, str, str | None]]) -> Path:
+        """The views that panoramas were cut into, by their names, digests, and those of masks."""
+        told: list[JsonValue] = [list(one) for one in panoramas]
         key = result_key("panoramas", VERSION, self.options.camera, told)
         return self.folder / f"views-{key[:24]}"
 
@@ -82,6 +83,10 @@ class Stages:
     def rig_database(self) -> Path:
         """The engine's database with the rig in it, as the map before it told."""
         return self.database().with_suffix(".rig.db")
+
+    def panorama_database(self) -> Path:
+        """The engine's database with each panorama as a rig of its views."""
+        return self.database().with_suffix(".panoramas.db")
 
     def shared_database(self) -> Path:
         """The same for photos that are taken to be of one camera."""

@@ -13,8 +13,15 @@ import numpy as np
 import pycolmap
 from numpy.typing import NDArray
 
+from veduta.photos.intake.source import View
 from veduta.photos.mapping.engine import quiet_engine
-from veduta.photos.rigged import add_rig, frames_in, rigs_among
+from veduta.photos.rigged import (
+    add_rig,
+    fixed_to_each_other,
+    frames_in,
+    has_length,
+    rigs_among,
+)
 from veduta.run.errors import NotFoundError
 
 PARALLEL_RAD = np.deg2rad(0.1)
@@ -47,7 +54,8 @@ class Structure:
     image_of, keypoint_of, point_of: (o,) the photo (row), its keypoint and the point (row) of each
     observation. frame_of: the frame of each photo that was taken with others by a rig, by image id;
     those of one frame keep their places to each other. rig_held: these are given, and stay.
-    focal_held: focal lengths are given, and stay.
+    focal_held: focal lengths are given, and stay. views: by image id, of photos that were cut out
+    of panoramas: their lenses stay, and so do the places of those of one body to each other.
     """
 
     cameras: Mapping[int, pycolmap.Camera]
@@ -64,10 +72,16 @@ class Structure:
     frame_of: Mapping[int, int] = field(default_factory=dict)
     rig_held: bool = False
     focal_held: bool = False
+    views: Mapping[int, View] = field(default_factory=dict)
 
     def camera(self, row: int) -> pycolmap.Camera:
         """The camera of a photo, by its row."""
         return self.cameras[self.camera_of[self.image_ids[row]]]
+
+    def body_cameras(self) -> dict[int, str]:
+        """The body of each camera (its id) that views of panoramas have."""
+        there = self.camera_of
+        return {there[image]: view.body for image, view in self.views.items() if image in there}
 
     def centres(self) -> NDArray[np.float64]:
         """(n, 3) where the photos were taken."""
@@ -222,7 +236,8 @@ def model_of(structure: Structure) -> pycolmap.Reconstruction:
     """The engine's model of the columns; points that fewer than two photos see are left out."""
     model = pycolmap.Reconstruction()
     poses = dict(zip(structure.image_ids, structure.cam_from_world, strict=True))
-    rigs = rigs_among(poses, structure.camera_of, structure.frame_of)
+    first = structure.body_cameras()
+    rigs = rigs_among(poses, structure.camera_of, structure.frame_of, first)
     of_rigs = {camera for rig in rigs for camera in rig.cam_from_rig}
     for number, camera in structure.cameras.items():
         own = pycolmap.Camera(camera.todict())
@@ -293,9 +308,13 @@ def adjusted(
     for image in fixed:
         config.set_constant_cam_intrinsics(structure.camera_of[image])
         config.set_constant_rig_from_world_pose(model.images[image].frame_id)
-    for number in held:
+    bodies = structure.body_cameras()
+    for number in {*held, *bodies}:
         config.set_constant_cam_intrinsics(number)
-    if not fixed and structure.frame_of and structure.rig_held:  # which has the scale
+    if options.refine_sensor_from_rig:
+        for sensor in fixed_to_each_other(model, bodies):
+            config.set_constant_sensor_from_rig_pose(sensor)
+    if not fixed and structure.rig_held and has_length(model):  # which has the scale
         config.set_constant_rig_from_world_pose(model.images[structure.image_ids[0]].frame_id)
     elif not fixed:
         config.fix_gauge(pycolmap.BundleAdjustmentGauge.TWO_CAMS_FROM_WORLD)

@@ -10,6 +10,7 @@ from veduta.formats.laz import write_laz
 from veduta.photos.cameras.component import Component
 from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.laying import Laid
+from veduta.photos.panorama_file import write_panoramas
 from veduta.photos.pictures import write_pictures
 from veduta.photos.placing import CLOUD, PICTURES, place_of
 from veduta.photos.report import Told, failed_report, photos_report
@@ -64,6 +65,7 @@ def write_results(
         _write_models(told.components, sparse)
         crs, origin = (None, (0.0, 0.0, 0.0)) if world is None else (world.crs, world.origin_m)
         write_laz(structure.points, structure.colours, work / CLOUD, crs=crs, origin_m=origin)
+        write_panoramas([one.structure for one in told.components], work)
         write_georef(georef_document([one.georef for one in told.laid]), work / GEOREF)
         unit: Unit = "unknown" if world is None else "metres"
         part = write_walls(told.walls, structure, unit, work, walls)

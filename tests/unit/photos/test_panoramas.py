@@ -74,7 +74,11 @@ def test_a_panorama_is_eight_photos_of_a_known_lens(folder: Path, tmp_path: Path
     assert names == ["p1.jpg", "plain.jpg", *(f"p0_view{number}.jpg" for number in range(VIEWS))]
     assert "1 panoramas were cut into 8" in cut.notes[-1]
     photos = read_photos(cut.sources).photos[2:]
-    assert len({photo.group for photo in photos}) == 1
+    assert [photo.mount.camera for photo in photos if photo.mount] == [
+        f"panorama/view{number}" for number in range(VIEWS)
+    ]
+    assert {photo.mount.frame for photo in photos if photo.mount} == {"p0"}
+    assert len({photo.group for photo in photos}) == VIEWS
     assert photos[0].focal_px == pytest.approx(0.523 * photos[0].width_px, rel=1e-2)
     assert photos[0].time is not None
     assert read_image(cut.sources[2].path).pixels.shape == (160, 160, 3)

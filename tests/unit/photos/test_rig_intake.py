@@ -206,7 +206,7 @@ def test_a_rig_takes_photos_alone(tmp_path: Path, given: Given) -> None:
         plan_call(tmp_path, given, rig=True)
 
 
-@pytest.mark.parametrize("other", [{"cameras": "per-photo"}, {"panoramas": True}])
+@pytest.mark.parametrize("other", [{"cameras": "per-photo"}, {"focal_px": 900.0}])
 def test_what_has_no_use_beside_a_rig(other: dict[str, object]) -> None:
     options = PhotosOptions(camera=CameraOptions.model_validate({"rig": True, **other}))
     with pytest.raises(InputError, match="no use with --rig"):

@@ -135,7 +135,8 @@ def by_rig_alone(structure: Structure) -> tuple[str, ...]:
     names = [structure.names[row] for row in np.flatnonzero(counts < FEWEST_POINTS)]
     if not structure.frame_of or not names:
         return ()
-    return (f"{', '.join(names)}: too little to see; placed by the other cameras of the rig",)
+    by = "the others of their frame" if structure.views else "the other cameras of the rig"
+    return (f"{', '.join(names)}: too little to see; placed by {by}",)
 
 
 def without_weak(structure: Structure) -> tuple[Structure, tuple[str, ...]]:

@@ -167,13 +167,18 @@ def _kinds(
     structure: Structure, options: CameraOptions, groups: Mapping[int, int]
 ) -> list[CameraKind]:
     """What the options leave open, and the photos can tell."""
+    own = [image for image in structure.image_ids if image not in structure.views]
+    if not own:
+        return [CameraKind("pinhole", "shared", "middle")]
     lenses: Sequence[Lens] = AUTO if options.lens == "auto" else (options.lens,)
     sharings: Sequence[Sharing] = (
         ("shared", "per-photo") if options.cameras == "auto" else (options.cameras,)
     )
-    sizes = Counter(groups[image] for image in structure.image_ids)
+    sizes = Counter(groups[image] for image in own)
     if max(sizes.values()) == 1 and options.cameras == "auto":
         sharings = ("per-photo",)
+    if all(image in structure.frame_of for image in own):
+        sharings = ("shared",)
     kinds = []
     for sharing in sharings:
         places: Sequence[PrincipalPoint] = ("middle", "free")
@@ -224,12 +229,23 @@ def _doubt(worse: NDArray[np.float64], photo_of: NDArray[np.int64]) -> float:
 
 
 def with_cameras(structure: Structure, kind: CameraKind, groups: Mapping[int, int]) -> Structure:
-    """The same poses and points, seen by cameras of this kind, before they are adjusted."""
-    shared = kind.sharing == "shared"
-    own = {image: groups[image] if shared else image for image in structure.image_ids}
+    """The same poses and points, seen by cameras of this kind, before they are adjusted.
+
+    Each camera of a rig is one, whatever the others are, and views of panoramas keep theirs.
+    """
+    after = max(structure.image_ids)
+    own = {}
+    for image in structure.image_ids:
+        fixed = image in structure.frame_of or image in structure.views
+        alone = after + groups[image] if fixed else image
+        own[image] = groups[image] if kind.sharing == "shared" else alone
     cameras: dict[int, pycolmap.Camera] = {}
     for number in sorted(set(own.values())):
         images = [image for image, camera in own.items() if camera == number]
+        if images[0] in structure.views:
+            cut = structure.cameras[structure.camera_of[images[0]]]
+            cameras[number] = pycolmap.Camera({**cut.todict(), "camera_id": number})
+            continue
         known = [structure.cameras[structure.camera_of[image]] for image in images]
         focal = float(np.median([camera.mean_focal_length() for camera in known]))
         camera = pycolmap.Camera.create_from_model_name(

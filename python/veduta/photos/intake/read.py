@@ -17,7 +17,7 @@ from veduta.imaging.read import Photo, image_size, read_image
 from veduta.imaging.shot import Position
 from veduta.photos.intake.duplicates import Pictures
 from veduta.photos.intake.masks import read_mask
-from veduta.photos.intake.source import Mount, Source
+from veduta.photos.intake.source import Mount, Source, View
 from veduta.run.errors import InputError
 from veduta.run.progress import StepProgress, no_progress
 
@@ -34,7 +34,7 @@ class PhotoRecord:
     EXIF; None where it says nothing that can be true. group: number of the camera that may have
     taken it, by size, make and focal length, or film. orientation: as EXIF says that it is stored.
     pitch_deg: how far it looked up, by the gimbal that held it. mount: where its camera is one of
-    a rig.
+    a rig. view: where it was cut out of a panorama; its lens is then known.
     """
 
     image_id: int
@@ -56,6 +56,7 @@ class PhotoRecord:
     video: str | None = None
     pitch_deg: float | None = None
     mount: Mount | None = None
+    view: View | None = None
 
     @property
     def one_camera(self) -> bool:
@@ -174,6 +175,7 @@ def _record(source: Source, photo: Photo) -> PhotoRecord:
         video=source.video,
         pitch_deg=photo.shot.pitch_deg,
         mount=source.mount,
+        view=source.view,
     )
 
 

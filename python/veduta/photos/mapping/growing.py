@@ -31,6 +31,7 @@ from veduta.photos.mapping.initial_pair import (
     weighed_pair,
     weighed_pairs,
 )
+from veduta.photos.matching.match import KNOWN_MODEL
 from veduta.run.threads import available_cores
 
 MOST_TRIED = 8
@@ -267,7 +268,9 @@ def _options(growth: Growth) -> pycolmap.IncrementalPipelineOptions:
     options.min_model_size = growth.smallest
     options.extract_colors = False
     with pycolmap.Database.open(growth.database) as opened:
-        sides = [max(camera.width, camera.height) for camera in opened.read_all_cameras()]
+        cameras = opened.read_all_cameras()
+    sides = [max(camera.width, camera.height) for camera in cameras]
+    options.constant_cameras = {one.camera_id for one in cameras if one.model.name == KNOWN_MODEL}
     options.mapper.abs_pose_max_error = float(np.clip(PLACING * np.median(sides), *PLACING_PX))
     options.ba_refine_focal_length = not growth.focal_held
     # The engine warns of a trivial rig in each photo otherwise.

@@ -25,10 +25,11 @@ def frames_of(photos: Sequence[PhotoRecord], cameras: Sequence[str]) -> dict[int
 
 
 def write_rig_database(
-    database: Path, photos: Sequence[PhotoRecord], poses: RigPoses, target: Path
+    database: Path, photos: Sequence[PhotoRecord], rigs: Sequence[RigPoses], target: Path
 ) -> None:
-    """A copy of a database whose photos are in frames of a rig, where the poses are known."""
-    frame_of = frames_of(photos, list(poses.cam_from_rig))
+    """A copy of a database whose photos are in frames of rigs, where the poses are known."""
+    frames = [frames_of(photos, list(one.cam_from_rig)) for one in rigs]
+    frame_of = {image: number for own in frames for image, number in own.items()}
     with atomic_write(target) as temporary:
         shutil.copyfile(database, temporary)
         with pycolmap.Database.open(temporary) as opened:
@@ -40,16 +41,20 @@ def write_rig_database(
             }
             alone = [image for image in images if image not in frame_of]
             kept = [opened.read_frame(image) for image in alone]
-            rigs = {frame.rig_id: opened.read_rig(frame.rig_id) for frame in kept}
+            single = {frame.rig_id: opened.read_rig(frame.rig_id) for frame in kept}
             opened.clear_frames()
             opened.clear_rigs()
-            for rig in rigs.values():
+            for rig in single.values():
                 opened.write_rig(rig, use_rig_id=True)
             for frame in kept:
                 opened.write_frame(frame, use_frame_id=True)
-            known = {camera_of[name]: pose for name, pose in poses.cam_from_rig.items()}
-            number = opened.write_rig(rig_of(min(known), known), use_rig_id=True)
-            _write_frames(opened, images, frame_of, int(number))
+            first = {images[photo.image_id].camera_id for photo in photos if photo.view is not None}
+            for one, own in zip(rigs, frames, strict=True):
+                known = {camera_of[name]: pose for name, pose in one.cam_from_rig.items()}
+                order = sorted(known, key=lambda camera: (camera not in first, camera))
+                rig = rig_of(min(known), {camera: known[camera] for camera in order})
+                number = opened.write_rig(rig, use_rig_id=True)
+                _write_frames(opened, images, own, int(number))
 
 
 def _write_frames(

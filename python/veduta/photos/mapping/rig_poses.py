@@ -8,11 +8,12 @@ it: photos that were placed falsely then do not count.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.photos.intake.panoramas import cam_from_panorama
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.rigged import after, between
 from veduta.photos.structure import Structure
@@ -49,14 +50,52 @@ def found_poses(structure: Structure, photos: Sequence[PhotoRecord]) -> RigPoses
     """
     placed = _placed(structure, photos)
     first = max(placed, key=lambda camera: (len(placed[camera]), camera))
-    known: dict[str, Floats] = {first: np.eye(3, 4)}
-    frames = {first: len(placed[first])}
+    told = RigPoses({first: np.eye(3, 4)}, held=False, frames={first: len(placed[first])})
+    told = with_views(told, photos)
     reach = MOST_SHIFT * _depth(structure)
-    while (tie := _strongest_tie(structure, placed, known, reach)) is not None:
+    while (tie := _strongest_tie(structure, placed, told.cam_from_rig, reach)) is not None:
         camera, pose, count = tie
-        known[camera], frames[camera] = pose, count
-    unknown = tuple(sorted(placed.keys() - known.keys()))
-    return RigPoses(known, held=False, frames=frames, unknown=unknown)
+        known = {**told.cam_from_rig, camera: pose}
+        told = with_views(
+            replace(told, cam_from_rig=known, frames={**told.frames, camera: count}), photos
+        )
+    return replace(told, unknown=_unknown(told, photos))
+
+
+def _unknown(told: RigPoses, photos: Sequence[PhotoRecord]) -> tuple[str, ...]:
+    """The cameras that nothing ties to the others; that of panoramas is one."""
+    return tuple(
+        sorted(
+            {
+                photo.mount.camera if photo.view is None else photo.view.body
+                for photo in photos
+                if photo.mount is not None and photo.mount.camera not in told.cam_from_rig
+            }
+        )
+    )
+
+
+def with_views(poses: RigPoses, photos: Sequence[PhotoRecord]) -> RigPoses:
+    """The same with all views of the panoramas that one of their views, or their folder, places."""
+    cameras = {
+        photo.mount.camera: photo.view
+        for photo in photos
+        if photo.view is not None and photo.mount is not None
+    }
+    known, frames = dict(poses.cam_from_rig), dict(poses.frames)
+    for body in sorted({view.body for view in cameras.values()}):
+        of_body = {name: one.number for name, one in sorted(cameras.items()) if one.body == body}
+        told = next((name for name in of_body if name in known), body)
+        if told not in known:
+            continue
+        own = cam_from_panorama(of_body.get(told, 0))
+        body_from_rig = after(between(own, np.eye(3, 4)), known[told])
+        known.pop(body, None)
+        count = frames.pop(body, frames.get(told, 0))
+        for name, number in of_body.items():
+            known[name] = after(cam_from_panorama(number), body_from_rig)
+            frames[name] = count
+    return replace(poses, cam_from_rig=known, frames=frames)
 
 
 def _placed(structure: Structure, photos: Sequence[PhotoRecord]) -> dict[str, dict[str, int]]:

@@ -27,6 +27,8 @@ START_MODEL = "SIMPLE_RADIAL"
 """The lens model that mapping begins with; `lens` chooses the one that stays."""
 FISHEYE_MODEL, FISHEYE_FOCAL = "OPENCV_FISHEYE", 0.32
 """And its focal length over the longer side where EXIF is silent: half around, equal angles."""
+KNOWN_MODEL = "PINHOLE"
+"""That of views which were cut out of panoramas: nothing of them is found by mapping."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ def write_database(
         database.clear_all_tables()
         rigs: dict[int, int] = {}
         for photo, file in zip(photos, features, strict=True):
-            own = per_photo or not (shared or photo.one_camera)
+            own = photo.view is None and (per_photo or not (shared or photo.one_camera))
             # Groups and photos are numbered from 1 on; a camera is one or the other.
             number = photo.image_id if own else len(photos) + photo.group
             if number not in rigs:
@@ -85,6 +87,7 @@ def _write_camera(
     unknown = FISHEYE_FOCAL if fisheye else UNKNOWN_FOCAL
     focal = photo.focal_px or unknown * max(photo.width_px, photo.height_px)
     model = FISHEYE_MODEL if fisheye else START_MODEL
+    model = model if photo.view is None else KNOWN_MODEL
     camera = pycolmap.Camera.create_from_model_name(
         number, model, focal, photo.width_px, photo.height_px
     )

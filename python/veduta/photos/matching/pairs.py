@@ -25,6 +25,9 @@ FEW = 60
 ENOUGH_GPS = 0.8
 """Share of the photos that must have a position before neighbours are chosen by it."""
 EARTH_RADIUS_M = 6_371_000.0
+LEAST_PANORAMAS = 2
+"""Panoramas that each is compared with, on each side of an order or by place: all views of one look
+to all sides, so neighbours are counted in whole panoramas."""
 
 
 @dataclass(frozen=True)
@@ -45,15 +48,32 @@ def choose_pairs(photos: Sequence[PhotoRecord], options: MatchOptions) -> Pairs:
     if kind == "all":
         ids = [photo.image_id for photo in photos]
         every = [(a, b) for row, a in enumerate(ids) for b in ids[row + 1 :]]
-        return Pairs(tuple(every), kind, "all pairs")
+        return _seen_apart(Pairs(tuple(every), kind, "all pairs"), photos)
     if kind == "sequence":
-        return _sequence(photos, options.neighbours)
+        return _seen_apart(_sequence(photos, options.neighbours), photos)
     if kind == "retrieval":
         how = f"the {options.neighbours} that look most alike"
         if options.pairs == "auto":
             how += ", for most photos have no position and not all have a time"
         return Pairs((), kind, how)
-    return _nearest(photos, options.neighbours)
+    return _seen_apart(_nearest(photos, options.neighbours), photos)
+
+
+def _seen_apart(chosen: Pairs, photos: Sequence[PhotoRecord]) -> Pairs:
+    """The same without pairs of views of one panorama: how they lie to each other is known."""
+    whole = {photo.image_id: photo.view.panorama for photo in photos if photo.view is not None}
+    kept = [
+        pair
+        for pair in chosen.pairs
+        if pair[0] not in whole or whole[pair[0]] != whole.get(pair[1])
+    ]
+    return replace(chosen, pairs=tuple(kept))
+
+
+def _views(photos: Sequence[PhotoRecord]) -> int:
+    """Of a panorama; 0 where there are none."""
+    views = {photo.view.number for photo in photos if photo.view is not None}
+    return len(views)
 
 
 def _kind(photos: Sequence[PhotoRecord]) -> Pairing:
@@ -76,15 +96,21 @@ def retrieved_pairs(
     ids = [photo.image_id for photo in photos]
     found = look_alikes(features, options.neighbours, seed)
     pairs = sorted(_pair(ids[first], ids[second]) for first, second in found)
-    return replace(chosen, pairs=tuple(pairs))
+    return _seen_apart(replace(chosen, pairs=tuple(pairs)), photos)
 
 
 def _sequence(photos: Sequence[PhotoRecord], reach: int) -> Pairs:
     """Each photo with the next ones, and with some far ahead, so that loops can close."""
     timed = all(photo.time is not None for photo in photos)
     order = sorted(photos, key=lambda photo: (photo.time or datetime.min, _name(photo)))
-    mounts = {photo.mount.camera for photo in photos if photo.mount is not None}
-    reach *= max(1, len(mounts))  # neighbours are frames
+    mounts = {
+        photo.mount.camera for photo in photos if photo.mount is not None and photo.view is None
+    }
+    views = _views(photos)
+    if views:
+        reach = (len(mounts) + views) * max(LEAST_PANORAMAS, -(-reach // views))
+    else:
+        reach *= max(1, len(mounts))  # neighbours are frames
     ids = [photo.image_id for photo in order]
     steps = sorted({*range(1, reach + 1), *_doublings(reach, len(ids))})
     pairs = {_pair(a, b) for step in steps for a, b in zip(ids, ids[step:], strict=False)}
@@ -127,6 +153,9 @@ def _nearest(photos: Sequence[PhotoRecord], count: int) -> Pairs:
     radians = np.deg2rad(degrees)
     level = np.cos(radians[:, 0].mean())
     metres = EARTH_RADIUS_M * np.column_stack([radians[:, 1] * level, radians[:, 0]])
+    told, views = count, _views(placed)
+    if views:  # those of its own panorama are the nearest of each, and are not compared with it
+        count = views * (max(2 * LEAST_PANORAMAS, -(-count // views)) + 1) - 1
     nearest = cKDTree(metres).query(metres, k=min(count + 1, len(placed)))[1]
     pairs = {
         _pair(placed[row].image_id, placed[other].image_id)
@@ -137,7 +166,7 @@ def _nearest(photos: Sequence[PhotoRecord], count: int) -> Pairs:
     rest = len(photos) - len(placed)
     how = f"the {count} nearest by GPS"
     if rest:
-        pairs |= set(_sequence(photos, min(count, 5)).pairs)
+        pairs |= set(_sequence(photos, min(told, 5)).pairs)
         how += f", and neighbours in order because of {rest} photos without a position"
     return Pairs(tuple(sorted(pairs)), "gps", how)
 

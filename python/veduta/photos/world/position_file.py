@@ -67,6 +67,16 @@ def _parts(path: Path, number: int, line: str) -> tuple[str, list[float]]:
     return match["quoted"] or match["name"] or match["word"], values
 
 
+def _names(photo: PhotoRecord) -> tuple[str, ...]:
+    """What a file may call a photo: a view, after the panorama that it was cut out of, too."""
+    return (photo.name,) if photo.view is None else (photo.name, photo.view.panorama)
+
+
+def _position(photo: PhotoRecord, known: Mapping[str, Position]) -> Position | None:
+    told = (known.get(name.casefold()) for name in _names(photo))
+    return next((one for one in told if one is not None), photo.position)
+
+
 def at_positions(
     photos: Sequence[PhotoRecord], positions: PhotoPositions
 ) -> tuple[tuple[PhotoRecord, ...], list[str]]:
@@ -74,12 +84,9 @@ def at_positions(
 
     Small and capital letters are alike, for systems differ; the file counts more than EXIF.
     """
-    by_small = {photo.name.casefold(): photo.name for photo in photos}
+    by_small = {name.casefold(): name for photo in photos for name in _names(photo)}
     known = {name.casefold(): position for name, position in positions.by_name.items()}
-    placed = tuple(
-        replace(photo, position=known.get(photo.name.casefold(), photo.position))
-        for photo in photos
-    )
+    placed = tuple(replace(photo, position=_position(photo, known)) for photo in photos)
     strange = [name for name in positions.by_name if name.casefold() not in by_small]
     if len(strange) == len(positions.by_name):
         near = get_close_matches(strange[0].casefold(), by_small, n=1)
