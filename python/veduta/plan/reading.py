@@ -7,7 +7,7 @@ once more by what lies behind them, let the axes meet, and find rooms.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -28,7 +28,7 @@ from veduta.plan.openings.evidence import Views
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.jambs import with_jambed
 from veduta.plan.openings.labelled import Labels, said_window, window_labels, with_said
-from veduta.plan.openings.leaf_pieces import free_leaves, leaf_pieces
+from veduta.plan.openings.leaf_pieces import free_leaves, hung_leaves, leaf_pieces, unproven
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
@@ -265,13 +265,15 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
     if known is None and way.drawing == "filled":
         door_px = usual_door(judged) or USUAL_DOOR * found.thin_px
         leaves |= free_leaves(found.pieces, found.thin_px, door_px)
+        leaves |= hung_leaves(found.pieces, judged, found.thin_px)
     if leaves:
-        walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
-        found = replace(found, pieces=walls)
+        found = without_pieces(found, leaves)
         judged = judge_gaps(found, views, said)
     if known is None:
         judged = [*judged, *panels_beyond(found, views)]
     axes = axes_of([*found.pieces, *found.curved], judged)
+    if known is None and way.drawing == "filled":
+        axes = unproven(axes, found.thin_px)
     # What a vector file says of its openings goes before what its picture looks like; in walls that
     # are told by their colour, what else is drawn in them is lines of axes.
     told = known is not None or found.by_colour
@@ -287,13 +289,25 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
     return drawn_from(cleaned, found, laid, texts, whole.notes)
 
 
-def without_fence(cleaned: Cleaned, found: Found, fence: Sequence[Piece]) -> tuple[Cleaned, Found]:
-    """The sheet and its walls without those around the plot."""
-    mask = np.zeros(cleaned.ink.shape, dtype=np.uint8)
-    for one in fence:
+def without_pieces(found: Found, gone: Collection[int]) -> Found:
+    """The walls without some of their pieces, whose ink no wall is carried on by any more."""
+    solid = found.solid & ~_painted([found.pieces[one] for one in gone], found.solid.shape)
+    kept = [one for index, one in enumerate(found.pieces) if index not in gone]
+    return replace(found, pieces=kept, solid=solid | (found.solid & _painted(kept, solid.shape)))
+
+
+def _painted(pieces: Iterable[Piece], shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    """(h, w) where pieces of wall are, and a little beside them."""
+    mask = np.zeros(shape, dtype=np.uint8)
+    for one in pieces:
         ends = [tuple(int(value) for value in np.round(end)) for end in (one.start, one.end)]
         cv2.line(mask, ends[0], ends[1], 1, round(1.5 * one.thickness_px) + 2)
-    paper = mask.astype(np.bool_)
+    return mask.astype(np.bool_)
+
+
+def without_fence(cleaned: Cleaned, found: Found, fence: Sequence[Piece]) -> tuple[Cleaned, Found]:
+    """The sheet and its walls without those around the plot."""
+    paper = _painted(fence, cleaned.ink.shape)
     ink = np.where(paper, np.float32(0.0), cleaned.ink).astype(np.float32)
     names = {id(one) for one in fence}
     kept = [one for one in found.pieces if id(one) not in names]

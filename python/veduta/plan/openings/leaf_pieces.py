@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from veduta.plan.openings.classify import Judged
 from veduta.plan.openings.evidence import LEAST_ARC
+from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.leaves import Arc
+from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.pieces import Piece
 
 BESIDE = 0.12
@@ -23,6 +25,21 @@ SHORTER = 0.35
 
 SLANTED = 0.96
 """The larger part of a slanted direction: more than 16 degrees from upright."""
+
+SLIM = 0.8
+"""Leaves, and lines of furniture, are thinner than this part of thin walls."""
+
+SQUARE = 0.1
+"""The cosine up to which a leaf stands square to its door."""
+
+LIKE = 0.2
+"""By this part of its door's width a leaf may be longer or shorter."""
+
+MOSTLY_OPEN = 0.6
+"""Of a line that is open for this part of its length, and thin, nothing shows that it is a wall."""
+
+WEAK = 0.6
+"""A door with a lower score may be none."""
 
 HANGS = 1.5
 """So near to a wall, in (thin) wall thicknesses, an end hangs on it."""
@@ -64,6 +81,62 @@ def free_leaves(pieces: Sequence[Piece], thin_px: float, door_px: float) -> set[
         ):
             found.add(index)
     return found
+
+
+def hung_leaves(pieces: Sequence[Piece], judged: Sequence[Judged], thin_px: float) -> set[int]:
+    """Indices of pieces that stand square to a way through at its jamb, as long as it is wide.
+
+    Leaves whose traces are lost among what else is drawn there. They are thinner than walls, and
+    end before the next one.
+    """
+    ways = [one.gap for one in judged if _is_doubtful(one)]
+    found = set()
+    for index, piece in enumerate(pieces):
+        if piece.bulge or piece.thickness_px > SLIM * thin_px:
+            continue
+        others = [one for place, one in enumerate(pieces) if place != index]
+        for near, far in ((piece.start, piece.end), (piece.end, piece.start)):
+            free = all(_away(far, one) > one.thickness_px / 2 + thin_px for one in others)
+            if free and any(_hangs_in(near, far, gap, thin_px) for gap in ways):
+                found.add(index)
+    return found
+
+
+def _is_doubtful(one: Judged) -> bool:
+    """A way through whose kind of leaf nothing tells."""
+    return one.kind != "window" and one.type in ("plain", "unknown")
+
+
+def _hangs_in(
+    near: NDArray[np.float64], far: NDArray[np.float64], gap: Gap, thin_px: float
+) -> bool:
+    run = gap.end - gap.start
+    width = float(np.hypot(*run))
+    leaf = far - near
+    size = float(np.hypot(*leaf))
+    square = abs(float(run @ leaf)) <= SQUARE * width * size
+    at_jamb = min(float(np.hypot(*(near - jamb))) for jamb in (gap.start, gap.end))
+    return square and abs(size - width) <= LIKE * width and at_jamb <= HANGS * thin_px
+
+
+def unproven(axes: Sequence[Axis], thin_px: float) -> list[Axis]:
+    """The axes without those that are no walls but lines of furniture, or tips of leaves.
+
+    They are thinner than walls, and for most of their length they are ways through without leaves,
+    or with such as can hardly be seen: what is left stood in one line with something by chance.
+    """
+    return [one for one in axes if not _by_chance(one, thin_px)]
+
+
+def _by_chance(axis: Axis, thin_px: float) -> bool:
+    line = axis.line
+    if not axis.openings or line.bulge or line.thickness_px > SLIM * thin_px:
+        return False
+    judged = [one.judged for one in axis.openings]
+    if not all(_is_doubtful(one) or one.score < WEAK for one in judged):
+        return False
+    open_px = sum(one.last - one.first for one in axis.openings)
+    return open_px >= MOSTLY_OPEN * line.length_px
 
 
 def _points_at_an_end(
