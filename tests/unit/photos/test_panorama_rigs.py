@@ -40,6 +40,8 @@ from veduta.photos.stages import Stages
 from veduta.photos.structure import Structure, adjusted, errors_px
 from veduta.photos.world.control_file import ControlPoint, ControlPoints
 from veduta.photos.world.control_panoramas import marks_in_views
+from veduta.photos.world.gps_fit import gps_georeference
+from veduta.photos.world.gps_positions import GpsPositions
 from veduta.photos.world.position_file import PhotoPositions, at_positions
 from veduta.run.progress import Progress
 
@@ -391,3 +393,24 @@ def test_a_database_holds_several_rigs(tmp_path: Path) -> None:
         frames = [len(list(frame.data_ids)) for frame in opened.read_all_frames()]
     assert sorted(rigs) == [1, VIEWS]
     assert sorted(frames) == [1] * FRAMES + [VIEWS] * FRAMES
+
+
+def test_gps_of_two_panoramas_is_that_of_two_places() -> None:
+    """Sixteen photos have it, and nobody knows how far it is off."""
+    structure, _ = known_rig(beside=False)
+    for frames, accepted in ((2, False), (5, True)):
+        rows = np.arange(frames * VIEWS)
+        there = structure.centres()[rows][:, [0, 2]] * (1.0, -1.0)
+        level = replace(structure, cam_from_world=_z_up(structure.cam_from_world))
+        positions = GpsPositions(
+            "EPSG:32632", (0.0, 0.0, 0.0), rows, 10.0 * there[:, [0, 1]], np.full(len(rows), np.nan)
+        )
+        found, _ = gps_georeference(level, positions, 0)
+        assert found.accepted == accepted, found.why
+        assert ("only 2 panoramas" in found.why) != accepted
+
+
+def _z_up(poses: Floats) -> Floats:
+    """The same in a world whose z is up: y was down."""
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+    return np.concatenate([poses[:, :, :3] @ turn, poses[:, :, 3:]], axis=2)

@@ -47,8 +47,11 @@ def gps_georeference(
     structure: Structure, positions: GpsPositions, seed: int
 ) -> tuple[Georeference, PlacementPrior | None]:
     """The fit with its uncertainty, and what it says beforehand to a search among walls."""
-    if len(positions.rows) < FEWEST:
-        why = f"only {len(positions.rows)} placed photos have GPS, of {FEWEST} that it takes"
+    # Views of a panorama, and photos of one frame of a rig, are of one place.
+    taken = len(np.unique(structure.by_frame()[positions.rows]))
+    if taken < FEWEST:
+        what = "placed photos" if taken == len(positions.rows) else "panoramas or frames of the rig"
+        why = f"only {taken} {what} have GPS, of {FEWEST} that it takes"
         return _refused(positions, why), None
     centres = structure.centres()
     own = complex_of(centres[positions.rows, :2])
