@@ -8,7 +8,7 @@ from sample_plan import sample_plan
 from shapely.geometry import Polygon
 
 from veduta.plan.document import PlanDocument, Stairs
-from veduta.plan.house.shown_twice import shown_twice
+from veduta.plan.house.shown_twice import going_on, shown_twice
 from veduta.plan.options import HouseOptions
 from veduta.plan.tour.climbs import _high
 from veduta.plan.upper_floor import upper_floor, upper_floor_doubts, upper_floor_options
@@ -42,6 +42,18 @@ def test_ways_that_contradict_each_other_are_told() -> None:
     found, notes = shown_twice([stairs(0, 2.5, (0, 1))], [stairs(0, 2.5, (0, -1))])
     assert found[0].up == (0, 1)
     assert "the lower one is believed" in notes[0]
+
+
+def test_a_flight_by_which_one_arrives_does_not_lead_on() -> None:
+    """The sheet between shows the flight from below, and the one above has its own elsewhere."""
+    below, above = [stairs(0, 2.5, (0, 1))], [stairs(0, 2.5, (0, 1), left=4.0)]
+    own = [stairs(0.1, 2.5, (0, 1))]
+    assert going_on(below, own, above) == []
+    assert going_on(below, [*own, *above], above) == above
+    # Flights over each other all lead up, and so does what nothing else can.
+    assert going_on(below, own, below) == own
+    assert going_on(below, own, []) == own
+    assert going_on([], own, above) == own
 
 
 def named(name: str) -> PlanDocument:

@@ -18,7 +18,7 @@ from shapely.ops import unary_union
 
 from veduta.plan.document import Stairs, Storey
 from veduta.plan.house.headroom import first_in_well
-from veduta.plan.house.shown_twice import shown_twice
+from veduta.plan.house.shown_twice import going_on, shown_twice
 from veduta.plan.house.space import Space, solid_region, space_of
 from veduta.plan.house.turning import TurningFlight, turning_flight
 
@@ -111,12 +111,17 @@ def storey_spaces(
 
 def stairwells(spaces: Sequence[Space], slab_m: float) -> list[Stairwell]:
     """For each storey from the lowest up; nothing leads up from the highest."""
-    found = [_stairwell(low, high, slab_m) for low, high in zip(spaces, spaces[1:], strict=False)]
+    found = []
+    below: Sequence[Stairs] = ()
+    for lower, upper in zip(spaces, spaces[1:], strict=False):
+        own = going_on(below, lower.storey.stairs, upper.storey.stairs)
+        found.append(_stairwell(lower, upper, own, slab_m))
+        below = lower.storey.stairs
     return [*found, Stairwell()]
 
 
-def _stairwell(lower: Space, upper: Space, slab_m: float) -> Stairwell:
-    own = lower.storey.stairs
+def _stairwell(lower: Space, upper: Space, own: Sequence[Stairs], slab_m: float) -> Stairwell:
+    """own: the stairs of the lower storey that lead up from there."""
     both, notes = shown_twice(own, upper.storey.stairs)
     drawn = both or [*upper.storey.stairs]
     rise = upper.storey.elevation_m - lower.storey.elevation_m

@@ -60,6 +60,24 @@ def shown_twice(
     return found, notes
 
 
+def going_on(
+    below: Sequence[Stairs],
+    own: Sequence[Stairs],
+    above: Sequence[Stairs],
+    rule: TwiceRule = TWICE,
+) -> list[Stairs]:
+    """The stairs of a storey that lead up from it: not those by which one arrives from below.
+
+    Such stand where the storey below shows a flight, and the sheet above has its flights elsewhere:
+    these are then the ones that go on. Where it has none, or all are over each other, all lead up.
+    """
+
+    def over(one: Stairs, others: Sequence[Stairs]) -> bool:
+        return any(_common(one, other) >= rule.over for other in others)
+
+    return [one for one in own if not above or over(one, above) or not over(one, below)]
+
+
 def _known(one: Stairs) -> bool:
     return math.hypot(*one.up) > 0.5
 
