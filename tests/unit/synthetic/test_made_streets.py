@@ -13,13 +13,17 @@ from veduta.synthetic.drives import (
     MadeHouse,
     MadeStreet,
     MadeStreetOptions,
+    StreetCamera,
     TruckOptions,
     Way,
     make_street,
+    overcast,
+    photograph_made,
     poses_at,
     scan_street,
 )
 from veduta.synthetic.drives.footprint import PULSE_M, mixed, spread
+from veduta.synthetic.drives.surface import surface_of
 
 LENGTH_M = 30.0
 Floats = NDArray[np.float64]
@@ -158,3 +162,43 @@ def test_fronts_follow_the_bend() -> None:
     assert is_wall.all()
     # A front is a chord: a house of 18 m strays by w^2 / 8 r from the bend, balconies by a metre.
     assert np.abs(found - options.front_m).max() < 1.8
+
+
+def test_photographs_show_what_rays_meet(street: MadeStreet) -> None:
+    """Where rays through pixels meet things, the image is hidden; elsewhere it is the bare one."""
+    camera = StreetCamera(width_px=96, height_px=72, focal_px=47.0, noise=0.0, exposure=0.0)
+    pose = poses_at(np.array([15.0]), TruckOptions())[0]
+    photo = photograph_made(street, camera, pose, overcast(1), np.random.default_rng(1))
+    world_from_cam = camera.world_from_cam(pose)
+    y, x = np.indices((72, 96)) + 0.5
+    local = np.stack([(x - 48.0) / 47.0, (y - 36.0) / 47.0, np.ones_like(x)], axis=2)
+    rays = (local @ world_from_cam[:, :3].T).reshape(-1, 3)
+    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+    origins = np.broadcast_to(world_from_cam[:, 3], rays.shape)
+    facade, is_wall = street.facade(origins, rays)
+    met, kind = street.meet(origins, rays, np.zeros(len(rays), dtype=bool))
+    thing = (kind == Kind.OBJECT) & (met < facade - 0.2)
+    assert thing.sum() > 300
+    assert photo.before.ravel()[thing].mean() > 0.98
+    wall = is_wall & np.isfinite(facade)
+    assert (photo.front.ravel() == wall).mean() > 0.98
+    apart = np.abs(photo.pixels.astype(int) - photo.behind).max(axis=2)
+    assert np.median(apart[photo.before]) > 15
+    # Things darken what is right beside them.
+    assert np.median(apart[~photo.before]) <= 2
+
+
+def test_a_surface_model_has_the_roofs_and_the_road(street: MadeStreet) -> None:
+    heights, low = surface_of(street, 1.0, 4)
+    assert np.isnan(heights).mean() == pytest.approx(0.02, abs=0.01)
+
+    def around(x: float, y: float) -> float:
+        column, row = int(x - low[0]), int(y - low[1])
+        return float(np.nanmedian(heights[row - 1 : row + 2, column - 1 : column + 2]))
+
+    top = float(derived_house(11).part.positions_m[:, 2].max())
+    assert around(2.0, 15.0) == pytest.approx(0.0, abs=0.3)
+    roofs = [around(-16.0, y) for y in (8.0, 15.0, 22.0)]
+    assert 3.0 < max(roofs) <= top + 0.5
+    # The hedge stands in it, too.
+    assert np.nanmax(heights[:, int(-8.9 - low[0])]) > 1.0

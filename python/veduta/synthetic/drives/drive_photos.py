@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.synthetic.drives.fronts import Fronts
+from veduta.synthetic.drives.made_photos import overcast, photograph_made
+from veduta.synthetic.drives.made_street import MadeStreet
 from veduta.synthetic.drives.photograph import StreetCamera, StreetPhoto, photograph
 from veduta.synthetic.drives.scan import TruckOptions, poses_at
 from veduta.synthetic.drives.street import Street
@@ -41,21 +43,27 @@ class Taken:
 
 
 def take_photos(
-    street: Street,
-    fronts: Fronts,
+    street: Street | MadeStreet,
+    fronts: Fronts | None,
     truck: TruckOptions,
     camera: StreetCamera,
     seed: int,
     part_m: tuple[float, float] | None = None,
 ) -> Iterator[Taken]:
-    """One after the other along the street, or a part of it."""
+    """One after the other along the street, or a part of it. fronts: what those of a street of
+    boxes look like; a made street's houses have their own looks, so that it needs none.
+    """
+    light = overcast(seed)
     random = np.random.default_rng((seed, 5))
     low, high = part_m or (0.0, street.length_m)
     for number, y in enumerate(np.arange(low, high, camera.spacing_m).tolist()):
-        pose = poses_at(np.array([y]), truck)[0]
+        pose = poses_at(np.array([y]), truck, street.way)[0]
         time_s = y / truck.speed_m_s
         told = time_s + camera.jitter_s * float(random.normal())
-        photo = photograph(street, fronts, camera, pose, random)
+        if isinstance(street, MadeStreet):
+            photo = photograph_made(street, camera, pose, light, random)
+        else:
+            photo = photograph(street, fronts or Fronts(street, seed), camera, pose, random)
         yield Taken(f"{number:05d}", time_s, told, photo)
 
 

@@ -50,9 +50,10 @@ class MadeStreetOptions:
 
 @dataclass(frozen=True, eq=False)
 class MadeStreet:
-    """scene: all of it. bare: without what stands before the houses, and without rooms behind
-    glass. kinds, bare_kinds: uint8 `Kind` of each feature of theirs. glazed: (f,) whether a
-    feature of `scene` may have glass.
+    """scene: all of it. bare: without what stands before the houses.
+
+    kinds, bare_kinds: uint8 `Kind` of each feature of theirs. glazed: (f,) whether a feature of
+    `scene` may have glass.
     """
 
     scene: RayScene
@@ -126,11 +127,11 @@ def make_street(
     ground = ground_part(options.way, options.length_m, seed)
     bare = [Placed(ground, np.eye(4), Kind.GROUND)]
     bare += [Placed(one.part, where, Kind.WALL, one.mirrors) for one, where in houses]
-    rooms = [rooms_part(one, where, random) for one, where in houses]
+    bare += [rooms_part(one, where, random) for one, where in houses]
     before = parked(options, seed, random)
     if options.hedge:
         before += hedge_parts(options, seed)
-    scene, kinds, glazed = _scene([*bare, *rooms, *before])
+    scene, kinds, glazed = _scene([*bare, *before])
     plain, bare_kinds, _ = _scene(bare)
     return MadeStreet(scene, plain, kinds, bare_kinds, glazed, options.length_m, options.way)
 

@@ -40,7 +40,7 @@ _OWN_M: Mapping[Occluder, float] = {
 _ROAD_M = 0.13
 """By which its road lies below its pavement."""
 _PAINTS = 5
-_LAND_M = 0.005
+_LOWER_M, _LAND_M = 0.002, 0.007
 """By which the land around lies lower, so that it is not seen through what is on it."""
 _HEDGE_M = (8.6, 9.2, 1.3)
 _HEDGE_PIECE_M, _HEDGE_GAP_M = 5.6, 0.4
@@ -115,8 +115,9 @@ def rooms_part(house: MadeHouse, world_from_part: Floats, random: np.random.Gene
     """What one sees through a house's windows: a wall some metres in, floors, and partitions."""
     builder = MeshBuilder({})
     wide, high = house.width_m, float(house.part.positions_m[:, 2].max())
-    deep = float(random.uniform(2.5, 4.5))
-    inner, thick = 0.6, 0.1
+    deep = float(random.uniform(3.0, 4.5))
+    # Farther in than arcades and loggias are deep.
+    inner, thick = 2.3, 0.1
     top = 0.7 * high
     builder.box((0.3, deep, 0.0), (wide - 0.3, deep + thick, top), "wall", 0)
     for level in np.arange(3.0, top, 3.1).tolist():
@@ -130,7 +131,9 @@ def rooms_part(house: MadeHouse, world_from_part: Floats, random: np.random.Gene
 
 
 def ground_part(way: Way, length_m: float, seed: int) -> Part:
-    """Asphalt up to the kerb, paving beyond it, flat at z = 0, in strips across the way."""
+    """Asphalt up to the kerb, paving beyond it, flat, in strips across the way: a little lower than
+    z = 0, where houses have floors of their own.
+    """
     looks = _looks(seed % _PAINTS)
     builder = PartBuilder("ground")
     feature = builder.feature(SemanticClass.GROUND, Provenance.MEASURED, "ground")
@@ -157,7 +160,7 @@ def ground_part(way: Way, length_m: float, seed: int) -> Part:
 
 
 def _beside(frame: Floats, aside_m: float) -> Floats:
-    return np.asarray(frame[:, 3] + aside_m * frame[:, 1])
+    return np.asarray(frame[:, 3] + aside_m * frame[:, 1] - [0.0, 0.0, _LOWER_M])
 
 
 def _at(way: Way, along_m: float, aside_m: float) -> Floats:
