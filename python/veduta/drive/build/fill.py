@@ -30,7 +30,8 @@ class FillParameters:
     gap_m: a gap in the main depth up to this is bridged where both ends agree within `agree_m`.
     widest_m: a hole that no object left in a wall is filled from side to side up to this. step_m:
     ends of it that differ more are of two houses. beams_px: so few rows apart are two beams of the
-    scanner with nothing between. road_m: the ground is filled so far out where nothing stands.
+    scanner with nothing between. from_main: depths behind objects are interpolated from the main
+    depth on; else as they are, as the paper does. road_m: the ground is filled so far out where nothing stands.
     alone: measured pixels with fewer measured ones around (7 x 7) are removed.
     smooth_m: how much the surface may move where it is smoothed (3 sigma of the scanner, 3.5 cm).
     """
@@ -40,6 +41,7 @@ class FillParameters:
     widest_m: float = 10.0
     step_m: float = 1.0
     beams_px: int = 4
+    from_main: bool = True
     road_m: float = 12.0
     alone: int = 5
     smooth_m: float = 0.1
@@ -85,7 +87,8 @@ def fill_background(
     base = np.where(np.isfinite(main), main, 0.0).astype(np.float32)[None]
     holes = holes_of(objects)
     wall = _between_beams(wall - base, upper, chosen)
-    wall = fill_structure(wall, np.where(upper, holes, 0)) + base
+    plain = 0.0 if chosen.from_main else base
+    wall = fill_structure(wall + plain, np.where(upper, holes, 0)) - plain + base
     inside = upper & (rows <= _top_rows(np.isfinite(wall))) & np.isfinite(main)
     filled = _across(wall - base, frame.spacing_m, chosen, axis=1) + base
     filled = _across(filled, float("nan"), chosen, axis=0)
