@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 
 import numpy as np
@@ -62,9 +63,21 @@ def _known(code: int) -> int | None:
 
 def moved(points: NDArray[np.float64], own: int, wanted: int) -> NDArray[np.float64]:
     """(n, 2) x and y, or longitude and latitude, from one CRS to another; infinite beyond it."""
-    between = pyproj.Transformer.from_crs(own, wanted, always_xy=True)
-    x, y = between.transform(points[:, 0], points[:, 1])
+    x, y = _between(own, wanted).transform(points[:, 0], points[:, 1])
     return np.column_stack([x, y]).astype(np.float64)
+
+
+@functools.lru_cache(maxsize=64)
+def _between(own: int, wanted: int) -> pyproj.Transformer:
+    return pyproj.Transformer.from_crs(own, wanted, always_xy=True)
+
+
+def metres_of(code: int) -> float | None:
+    """How many metres a unit of a projected system is, such as 0.3048 of feet; None of degrees."""
+    system = horizontal(f"EPSG:{code}")
+    if not system.is_projected:
+        return None
+    return float(system.axis_info[0].unit_conversion_factor)
 
 
 def horizontal(name: str) -> pyproj.CRS:

@@ -3,7 +3,7 @@
 A file says its CRS in the member `crs` (GeoJSON of 2008, which desktop systems still write), or
 nothing: then the coordinates are longitude and latitude (RFC 7946) where they can only be that, and
 otherwise metres of a frame that nobody knows. Longitude and latitude become metres of the UTM zone
-in which most of the lots lie.
+in which most of the lots lie; so do systems that count in feet, or in degrees of other datums.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from veduta.geometry.crs import epsg_named
+from veduta.geometry.crs import LONGITUDE_LATITUDE, epsg_named, metres_of, moved
 from veduta.geometry.utm import MAX_LATITUDE_DEG, MIN_LATITUDE_DEG, epsg_of, utm, zone_of
 from veduta.grammar.rings import RingFault
 from veduta.run.errors import InputError
@@ -30,6 +30,8 @@ GEOGRAPHIC = {4326, 4258, 4269, 4979, 4937}
 TINY = 0.01
 """A lot this small is a degree's hundredth wide, or a centimetre: it is no lot in metres."""
 MAX_METRES = 1e8
+UNIT_TOLERANCE = 1e-9
+"""Units that differ less from a metre are metres."""
 MAX_ZONE_WIDTH_DEG = 9.0
 TOGETHER = 4096
 """Outlines that are projected at once."""
@@ -44,19 +46,27 @@ class Frame:
     """How a file's coordinates become metres about an origin.
 
     crs: EPSG code of the metres, None where it is not known. zone: (number, south) of UTM where
-    the file has longitude and latitude.
+    the file has longitude and latitude. source: EPSG code of a file that counts in other units, and
+    how many metres one of its heights is.
     """
 
     crs: str | None
     origin_m: tuple[float, float, float]
     zone: tuple[int, bool] | None = None
     notes: tuple[str, ...] = ()
+    source: tuple[int, float] | None = None
 
     def local(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 3) of the file as metres from the origin; RingFault where it cannot be."""
         metres = points
         if self.zone is not None:
             metres = np.column_stack([_projected(points, *self.zone), points[:, 2]])
+        elif self.source is not None and self.crs is not None:
+            code, unit_m = self.source
+            flat = moved(points[:, :2], code, int(self.crs.removeprefix("EPSG:")))
+            if not np.isfinite(flat).all():
+                raise RingFault("a coordinate cannot be projected")
+            metres = np.column_stack([flat, points[:, 2] * unit_m])
         about: NDArray[np.float64] = metres - np.array(self.origin_m)
         return about
 
@@ -173,6 +183,10 @@ def find_frame(
             )
         _require_heights(path, survey)
         return _utm_frame(path, survey, outlines())
+    unit_m = 1.0 if epsg is None else metres_of(epsg)
+    if epsg is not None and (unit_m is None or abs(unit_m - 1.0) > UNIT_TOLERANCE):
+        _require_heights(path, survey)
+        return _moved_frame(path, (epsg, unit_m or 1.0), survey, outlines())
     if is_tiny:
         raise InputError(
             path,
@@ -208,6 +222,30 @@ def _utm_frame(path: Path, survey: Survey, outlines: Iterable[NDArray[np.float64
     code = f"EPSG:{epsg_of(zone, south=south)}"
     note = f"longitude and latitude were projected to metres in {code} (WGS 84 / UTM)"
     return Frame(code, _origin(low), (zone, south), (note,))
+
+
+def _moved_frame(
+    path: Path,
+    source: tuple[int, float],
+    survey: Survey,
+    outlines: Iterable[NDArray[np.float64]],
+) -> Frame:
+    """The zone of UTM of a file that counts in feet, or in degrees about another datum."""
+    epsg, unit_m = source
+    ends = np.array([survey.low[:2], survey.high[:2]])
+    longitude, latitude = moved(ends.mean(axis=0)[None], epsg, LONGITUDE_LATITUDE)[0].tolist()
+    if not (math.isfinite(longitude) and MIN_LATITUDE_DEG <= latitude <= MAX_LATITUDE_DEG):
+        fault = f"says EPSG:{epsg}, but its coordinates lie beyond it"
+        raise InputError(path, fault, "Name the CRS that they are in, with --crs.")
+    code = epsg_of(zone_of(longitude), south=latitude < 0)
+    low = np.array([math.inf, math.inf, survey.low[2] * unit_m])
+    for group in _grouped(outlines):
+        low[:2] = np.minimum(low[:2], moved(group[:, :2], epsg, code).min(axis=0))
+    if not np.isfinite(low).all():
+        fault = f"says EPSG:{epsg}, but its coordinates lie beyond it"
+        raise InputError(path, fault, "Name the CRS that they are in, with --crs.")
+    note = f"EPSG:{epsg} does not count in metres: lots were moved to EPSG:{code} (WGS 84 / UTM)"
+    return Frame(f"EPSG:{code}", _origin(low), notes=(note,), source=source)
 
 
 def _grouped(outlines: Iterable[NDArray[np.float64]]) -> Iterator[NDArray[np.float64]]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import re
+import unicodedata
 from collections.abc import Mapping, Sequence
 
 from veduta.grammar.outline import Attribute
@@ -11,12 +13,14 @@ from veduta.run.errors import InputError
 USUAL: dict[str, tuple[str, ...]] = {
     "height": (
         "building:height", "est_height", "heightAboveGround", "measuredHeight", "HEIGHT",
-        "HAUTEUR", "hauteur", "hoehe", "HOEHE", "Hoehe", "altezza", "altura", "hoogte",
+        "hauteur", "hoehe", "altezza", "altura", "hoogte", "building_height", "bldg_height",
+        "heightroof", "gebaeudehoehe", "geb_hoehe",
     ),
     "eaveHeight": ("eaves_height", "EAVE_HEIGHT"),
     "levels": (
         "building:levels", "numberOfFloorsAboveGround", "storeysAboveGround", "num_floors",
-        "NB_ETAGES", "nb_etages", "etages", "floors", "storeys", "stories", "geschosse",
+        "nb_etages", "etages", "floors", "storeys", "stories", "geschosse", "anzahl_geschosse",
+        "geschosszahl", "plantas", "piani", "bouwlagen",
     ),
     "roofHeight": ("roof:height",),
     "roofShape": ("roof:shape",),
@@ -26,9 +30,11 @@ USUAL: dict[str, tuple[str, ...]] = {
     "roofColour": ("roof:colour", "roof:color"),
     "year": ("start_date", "year_built", "YEAR", "dateOfConstruction"),
 }  # fmt: skip
-"""By a name that rule files often have: keys of OpenStreetMap, INSPIRE and national data."""
+"""By a name that rule files often have: keys of OpenStreetMap, INSPIRE and national data. They are
+known in any case, with umlauts, and with or without `_` and `-` (`Höhe`, `NumFloors`)."""
 _SAME = (("levels", "floors", "nFloors", "storeys", "stories", "numFloors"), ("height", "Height"))
 """Names of rule files that mean the same."""
+_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
 _UNITS_M = {
     "": 1.0, "m": 1.0, "metre": 1.0, "meter": 1.0, "cm": 0.01, "km": 1000.0, "ft": 0.3048,
     "feet": 0.3048, "foot": 0.3048, "'": 0.3048, '"': 0.0254,
@@ -65,7 +71,17 @@ def property_of(
         for usual in (other, *USUAL.get(other, ())):
             if usual in properties:
                 return properties[usual]
-    return None
+    usual_names = {_folded(usual) for other in alike for usual in USUAL.get(other, ())}
+    found = (value for key, value in properties.items() if _folded(key) in usual_names)
+    return next(found, None) if usual_names else None
+
+
+@functools.lru_cache(maxsize=4096)
+def _folded(name: str) -> str:
+    """A name in lower case without accents, and without what stands between its words."""
+    plain = name.casefold().translate(_UMLAUTS)
+    parted = unicodedata.normalize("NFKD", plain)
+    return "".join(sign for sign in parted if sign.isalnum() or sign == ":")
 
 
 def measured(text: str) -> float | None:

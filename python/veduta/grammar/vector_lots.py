@@ -92,7 +92,10 @@ def _outlines(
     try:
         polygons, kind = polygons_of_wkb(geometry)
         if polygons is None:
-            found.pass_over(kind)
+            roads = _roads_of(shapely.from_wkb(geometry, on_invalid="ignore"), properties)
+            found.roads += roads
+            if not roads:
+                found.pass_over(kind)
             return
         closed = ([closed_ring(ring) for ring in rings] for rings in polygons)
         yield from outlines_of(closed, len(polygons), own, subject, attributes)
@@ -127,16 +130,25 @@ def _line_layers(path: Path) -> tuple[list[str], list[str | None]]:
 def _roads(path: Path, layer: str) -> list[Road]:
     """The roads among the lines of a layer; of OpenStreetMap those with the tag `highway`."""
     is_osm = path.suffix.lower() in _OSM
-    roads = []
+    roads: list[Road] = []
     for geometries, columns in _blocks(path, layer):
         for row, geometry in enumerate(shapely.from_wkb(geometries, on_invalid="ignore")):
             properties = {key: _plain(values[row]) for key, values in columns.items()}
             if is_osm and not (properties := _tags(properties)).get("highway"):
                 continue
-            for line in () if geometry is None else shapely.get_parts(geometry):
-                if line.geom_type == "LineString":
-                    roads.append(road_of(properties, shapely.get_coordinates(line)))
-    return [road for road in roads if road is not None]
+            roads += _roads_of(geometry, properties)
+    return roads
+
+
+def _roads_of(geometry: Any, properties: dict[str, Any]) -> list[Road]:
+    """The roads that the lines of a feature are."""
+    lines = () if geometry is None else shapely.get_parts(geometry)
+    each = (
+        road_of(properties, shapely.get_coordinates(line))
+        for line in lines
+        if line.geom_type == "LineString"
+    )
+    return [road for road in each if road is not None]
 
 
 def _layer(path: Path, wanted: str | None) -> tuple[str, str | None]:

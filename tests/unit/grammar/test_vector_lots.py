@@ -186,3 +186,55 @@ def test_names_of_the_call_come_before_those_of_the_file_and_the_usual_ones() ->
     assert property_of("colour", lot, {}) is None
     with pytest.raises(InputError, match="--map height"):
         read_names(["height"])
+
+
+def test_usual_names_are_known_in_any_case_and_with_umlauts() -> None:
+    assert property_of("height", {"Höhe": "14,5 m"}, {}) == "14,5 m"
+    assert property_of("height", {"HEIGHTROOF": 31.5}, {}) == 31.5
+    assert property_of("levels", {"NumFloors": 4, "floor_area": 900}, {}) == 4
+    assert property_of("levels", {"Nb-Etages": 3}, {}) == 3
+    assert property_of("height", {"heights": 9.0, "roof_height": 3.0}, {}) is None
+    assert property_of("colour", {"Colour": "red"}, {}) is None, "own names are those of the file"
+
+
+@pytest.mark.parametrize(
+    ("crs", "corner", "unit_m"),
+    [("EPSG:2263", (988_000.0, 210_000.0), 1200 / 3937), ("EPSG:4267", (-73.99, 40.74), None)],
+)
+def test_systems_in_feet_and_other_degrees_become_metres(
+    tmp_path: Path, crs: str, corner: tuple[float, float], unit_m: float | None
+) -> None:
+    """A lot of 12 x 9 m in New York, in a system that counts otherwise."""
+    across = (111_320 * np.cos(np.radians(corner[1])), 111_000) if unit_m is None else None
+    size = (12 / across[0], 9 / across[1]) if across else (12 / unit_m, 9 / unit_m)
+    lot = shapely.box(*corner, corner[0] + size[0], corner[1] + size[1])
+    path = tmp_path / "lots.fgb"
+    geometry, none = np.array([shapely.to_wkb(lot)], dtype=object), np.array([], dtype=str)
+    pyogrio.raw.write(path, geometry, [], none, geometry_type="Polygon", crs=crs)
+    lots = read_lots(path)
+    assert lots.crs == "EPSG:32618"
+    assert any("does not count in metres" in note for note in lots.notes)
+    ring = np.asarray(lots.lots[0].rings_m[0])
+    sides = np.sort(np.linalg.norm(np.roll(ring, -1, axis=0) - ring, axis=1))
+    np.testing.assert_allclose(sides, [9, 9, 12, 12], rtol=0.01)
+    east, north = lots.origin_m[:2]
+    assert abs(east - 585_000) < 3000 and abs(north - 4_510_000) < 8000
+
+
+def test_lines_of_a_kml_file_say_where_fronts_are(tmp_path: Path) -> None:
+    def places(*points: tuple[float, float]) -> str:
+        return " ".join(f"{8.54 + x / 75_000:.8f},{47.37 + y / 111_000:.8f},0" for x, y in points)
+
+    outline = places((0, 0), (12, 0), (12, 10), (0, 10), (0, 0))
+    line = places((-20, 15), (40, 15))
+    (tmp_path / "lots.kml").write_text(
+        '<kml xmlns="http://www.opengis.net/kml/2.2"><Document><name>a</name>'
+        "<Placemark><name>house</name><Polygon><outerBoundaryIs><LinearRing><coordinates>"
+        f"{outline}</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>"
+        f"<Placemark><LineString><coordinates>{line}</coordinates></LineString></Placemark>"
+        "</Document></kml>"
+    )
+    lots = read_lots(tmp_path / "lots.kml")
+    assert "1 road line says where the fronts of lots are" in lots.notes
+    front = np.asarray(lots.lots[0].rings_m[0])[:2]
+    assert front[:, 1].min() > 5, "the front looks north, to the line"
