@@ -604,6 +604,7 @@ class GrammarRules:
         ]
         | None = None,
         labels: tuple[Sequence[str], Sequence[int], Sequence[str]] | None = None,
+        in_plane: bool = False,
     ) -> None:
         """Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
         face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
@@ -611,6 +612,7 @@ class GrammarRules:
         face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
         the shape is white, and the texture with its size in metres, or None.
         `labels`: the name of each slot's material, the group of each face, and the names of the groups.
+        `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into.
         """
     def add_textures(self, sizes_m: dict[str, tuple[float, float]]) -> None:
         """Makes textures known that cover so many metres to the right and up: they lie in metres where

@@ -42,10 +42,17 @@ fn options() -> Options {
         let asset = Asset::new(name.into(), mesh, (LOW, LOW + SIZE)).unwrap();
         (asset.name.clone(), Arc::new(asset))
     };
+    let in_plane = |name: &str, mesh: Mesh| {
+        let (name, asset) = made(name, mesh);
+        let mut asset = Asset::clone(&asset);
+        asset.in_plane = true;
+        (name, Arc::new(asset))
+    };
     Options {
         assets: Arc::new(HashMap::from([
             made("box", mesh()),
             made("builtin/box", mesh()),
+            in_plane("pane", mesh()),
             made("hand", hand()),
         ])),
         ..Options::default()
@@ -85,9 +92,10 @@ fn an_asset_keeps_its_proportion_where_the_scope_is_flat() {
     // Stretched by 2 along x and by 3 along y, so by 2.5 along z; a flat scope stays where it is.
     let flat = scope("s(4, 3, 0) i(\"box\")");
     assert_eq!(flat, ([0.0; 3], [4.0, 3.0, 1.25]));
-    // One that Veduta brings along has its plane z = 0 in the wall: it began at -0.25.
-    let own = scope("s(4, 3, 0) i(\"builtin/box\")");
+    // One that says so has its plane z = 0 in the wall: it began at -0.25. No name does.
+    let own = scope("s(4, 3, 0) i(\"pane\")");
     assert_eq!(own, ([0.0, 0.0, -0.625], [4.0, 3.0, 1.25]));
+    assert_eq!(scope("s(4, 3, 0) i(\"builtin/box\")"), flat);
     // By 4 along y alone.
     let line = scope("s(0, 4, 0) i(\"box\")");
     assert_eq!(line, ([-4.0, 0.0, -1.0], [8.0, 4.0, 2.0]));

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use veduta_grammar::engine::{Files, Options, Value};
+use veduta_grammar::engine::{lower, Files, Options, Value};
+use veduta_grammar::{check, Program, Source};
 
 use super::support::{said, said_with, tree};
 
@@ -199,4 +200,29 @@ fn tables_are_read_into_arrays() {
     assert_eq!(told("nRows(readStringTable(\"heights.csv\"))"), ["3"]);
     assert_eq!(told("readStringTable(\"heights.csv\")[2, 0]"), ["tower"]);
     assert_eq!(told("readFloatTable(\"heights.csv\")[1, 1]"), ["9.5"]);
+}
+
+#[test]
+fn what_no_reference_has_is_taken_for_nothing() {
+    // Not the slip of a pen, so that the file derives, and says what it was taken for.
+    let text = "Lot --> print(3 + geometry.lowerheight) print(2 * scope.skew(2) + 1)";
+    assert_eq!(sizes(text), ["3", "1"]);
+    let program = Program::single(Source::new("test.cga", text));
+    let checked = check(&program);
+    assert!(checked.diagnostics[0].is_empty());
+    let lowered = lower(&program, &checked);
+    let told = lowered.diagnostics.into_iter().flatten();
+    let told: Vec<String> = told.map(|one| one.message).collect();
+    assert_eq!(
+        told,
+        [
+            "`geometry.lowerheight` does not derive: it is taken for 0",
+            "`scope.skew` does not derive: it is taken for 0"
+        ]
+    );
+    // A slip is one, and other names are nobody's.
+    for wrong in ["geometry.aera", "scope.zx", "height", "lib.height"] {
+        let program = Program::single(Source::new("test.cga", format!("Lot --> print({wrong})")));
+        assert_eq!(check(&program).diagnostics[0].len(), 1, "{wrong}");
+    }
 }

@@ -154,3 +154,50 @@ fn names_of_surfaces_that_are_no_texts_say_nothing() {
     let tree = derive(&code, 0, start, &Options::default()).unwrap();
     assert_eq!(&*surfaces(&tree, &pack(&tree), &code).name[0], "");
 }
+
+#[test]
+fn each_face_has_texture_coordinates_of_its_own() {
+    let uv = |tail: &str| {
+        packed(
+            &format!("Lot --> extrude(2) {tail}"),
+            &[square(0.0, 4.0, 0.0)],
+        )
+        .uv
+    };
+    let ends = |uv: &[[f32; 2]], axis: usize| {
+        let each = uv.iter().map(|one| one[axis]);
+        (
+            each.clone().fold(f32::INFINITY, f32::min),
+            each.fold(f32::NEG_INFINITY, f32::max),
+        )
+    };
+    // A picture from above is flat on the sides: of the whole shape v is there 0 or 1, of each face it
+    // grows along the side.
+    let from_above = "setupProjection(0, world.xz, 1, 1) projectUV(0)";
+    let apart = uv(&format!(
+        "{from_above} rotateUV(0, 45) normalizeUV(0, uv, separatePerFace)"
+    ));
+    assert_eq!(apart.len(), 24);
+    for face in apart.chunks(4) {
+        for axis in 0..2 {
+            let (low, high) = ends(face, axis);
+            assert!(low.abs() < 1e-6 && (high - 1.0).abs() < 1e-6, "{face:?}");
+        }
+    }
+    // What is done to them afterwards is done on each face.
+    let doubled = uv(&format!(
+        "{from_above} rotateUV(0, 45) normalizeUV(0, uv, separatePerFace) scaleUV(0, 2, 3) translateUV(0, 1, 0)"
+    ));
+    for (face, before) in doubled.chunks(4).zip(apart.chunks(4)) {
+        for (now, then) in face.iter().zip(before) {
+            let wanted = [2.0 * then[0] + 1.0, 3.0 * then[1]];
+            assert!((0..2).all(|axis| (now[axis] - wanted[axis]).abs() < 1e-5));
+        }
+    }
+    // A face keeps what it had when it is taken out and divided.
+    let halves = uv(
+        "normalizeUV(0, uv, separatePerFace) comp(f) { front : split(x) { ~1 : A. | ~1 : B. } }",
+    );
+    let (first, second) = halves.split_at(4);
+    assert_eq!((ends(first, 0), ends(second, 0)), ((0.0, 0.5), (0.5, 1.0)));
+}

@@ -163,7 +163,8 @@ impl GrammarRules {
     /// face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
     /// the shape is white, and the texture with its size in metres, or None.
     /// `labels`: the name of each slot's material, the group of each face, and the names of the groups.
-    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None, labels=None))]
+    /// `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into.
+    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None, labels=None, in_plane=false))]
     #[allow(clippy::too_many_arguments)] // columns
     fn add_asset(
         &self,
@@ -175,15 +176,17 @@ impl GrammarRules {
         face_slot: Option<PyReadonlyArray1<'_, i32>>,
         slots: Option<GivenSlots>,
         labels: Option<GivenLabels>,
+        in_plane: bool,
     ) -> PyResult<()> {
         let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
         let (corners, offsets) = (corners.as_slice()?, offsets.as_slice()?);
         let looks = face_slot.zip(slots);
         let asset = asset_of(name, &points, corners, offsets, &box_m, looks).ok_or_else(fault)?;
-        let asset = match labels {
+        let mut asset = match labels {
             Some(labels) => asset.with_labels(labels_of(labels)).ok_or_else(fault)?,
             None => asset,
         };
+        asset.in_plane = in_plane;
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
         Ok(())

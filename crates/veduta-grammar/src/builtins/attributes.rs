@@ -45,6 +45,26 @@ pub fn is_attribute(name: &str) -> bool {
     })
 }
 
+/// What dotted names begin with that tell of the current shape. Some files name one that no reference
+/// has: of an older CityEngine, or never heard of.
+const SPACES: &[&str] = &[
+    "comp",
+    "edgeAttr",
+    "geometry",
+    "initialShape",
+    "material",
+    "pivot",
+    "scope",
+    "split",
+    "trim",
+];
+
+/// Whether a name would tell of the current shape, known or not.
+pub fn tells_of_shape(name: &str) -> bool {
+    let space = name.split_once('.').map(|(space, _)| space);
+    space.is_some_and(|space| SPACES.contains(&space))
+}
+
 /// Whether `set` may change an attribute of the current shape.
 pub fn is_settable(name: &str) -> bool {
     let read_only = [

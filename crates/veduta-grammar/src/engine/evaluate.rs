@@ -72,6 +72,9 @@ impl Run<'_> {
                 let values = self.values(args, scene)?;
                 let files = self.options.files.clone();
                 self.take(files.names.len(), expr.span)?;
+                if let Some(told) = function.missing(&files, &values) {
+                    self.write(&Value::text(&told), expr.span)?;
+                }
                 let value = function.call(&files, &values, || scene.stream.draw());
                 value.map_err(|message| Fault::at(expr.span, message))
             }

@@ -68,6 +68,14 @@ impl FileFunction {
         )
     }
 
+    /// What to say where a text file is not there, which is taken for an empty one.
+    pub fn missing(self, files: &Files, args: &[Value]) -> Option<String> {
+        let name = args.first()?.to_string();
+        let is_wanted = matches!(self, Self::Text | Self::Strings | Self::Numbers);
+        let is_missing = is_wanted && !files.texts.contains_key(plain(&name));
+        is_missing.then(|| format!("there is no text file {name}: it is taken for empty"))
+    }
+
     /// The value for these arguments; Err says what is wrong. `draw` gives a number from 0 to 1.
     pub fn call(
         self,
@@ -92,7 +100,7 @@ impl FileFunction {
                 let place = ((drawn * found.len() as f64) as usize).min(last);
                 Ok(Value::text(found.get(place).copied().unwrap_or("")))
             }
-            Self::Text => Ok(Value::text(content(files, name)?)),
+            Self::Text => Ok(Value::text(content(files, name).unwrap_or(""))),
             Self::Metadata => {
                 let (key, default) = (args[1].to_string(), &args[2]);
                 let told = files
@@ -108,8 +116,8 @@ impl FileFunction {
                 let folder = &plain(name)[..plain(name).rfind('/').map_or(0, |at| at + 1)];
                 Ok(material_files::properties(content(files, name)?, folder))
             }
-            Self::Strings => table(content(files, name)?, Value::text),
-            Self::Numbers => table(content(files, name)?, |cell| {
+            Self::Strings => table(content(files, name).unwrap_or(""), Value::text),
+            Self::Numbers => table(content(files, name).unwrap_or(""), |cell| {
                 Value::Number(cell.trim().parse().unwrap_or(f64::NAN))
             }),
             Self::Picture => {
@@ -173,7 +181,7 @@ fn content<'a>(files: &'a Files, name: &str) -> Result<&'a str, String> {
         .ok_or_else(|| format!("there is no text file {name}"))
 }
 
-/// Rows of lines, columns between commas, semicolons or tabs, whichever the first line has.
+/// Rows of lines, columns between semicolons, tabs, commas or spaces, whichever the first line has.
 fn table(text: &str, value: impl Fn(&str) -> Value) -> Result<Value, String> {
     let lines = || text.lines().filter(|line| !line.trim().is_empty());
     let first = lines().next().unwrap_or("");
@@ -181,10 +189,11 @@ fn table(text: &str, value: impl Fn(&str) -> Value) -> Result<Value, String> {
         .into_iter()
         .find(|sign| first.contains(*sign));
     let cells = |line: &'_ str| -> Vec<String> {
-        let parts = line.split(between.unwrap_or(','));
-        parts
-            .map(|cell| cell.trim().trim_matches('"').to_string())
-            .collect()
+        let own = |cell: &str| cell.trim().trim_matches('"').to_string();
+        match between {
+            Some(sign) => line.split(sign).map(own).collect(),
+            None => line.split_whitespace().map(own).collect(),
+        }
     };
     let columns = lines().map(|line| cells(line).len()).max().unwrap_or(0);
     if columns * lines().count() > MAX_ELEMENTS {

@@ -45,6 +45,7 @@ mod rederive;
 mod regexes;
 mod run;
 mod selection;
+mod separate;
 mod shape_attributes;
 mod sorting;
 mod state;

@@ -121,7 +121,7 @@ impl Packer {
                 let corners = crate::shape::rectangle(*axis);
                 let (u, v) = axes_of(form);
                 let places = corners.map(|corner| form.scope.world(corner));
-                let map = map_on(node, || normal(&places));
+                let map = map_on(node, || places.to_vec());
                 for (corner, place) in corners.into_iter().zip(places) {
                     let own = [corner[u], corner[v]];
                     self.vertex(place, map.map_or(own, |map| map.at(place)));
@@ -153,7 +153,7 @@ impl Packer {
             let map = map_on(node, || {
                 let outline = face.rings().next().into_iter().flatten();
                 let places = outline.map(|&point| scope.world(mesh.points[point as usize]));
-                normal(&places.collect::<Vec<DVec3>>())
+                places.collect()
             });
             for ring in face.rings() {
                 for &point in ring {
@@ -215,12 +215,18 @@ impl Packer {
     }
 }
 
-/// Where the texture lies on a face with this normal: as the rules say, or in metres where its size
+/// Where the texture lies on a face with this outline (m): as the rules say, or in metres where its size
 /// is known; None where it covers the scope.
-fn map_on(node: &Node, normal: impl FnOnce() -> DVec3) -> Option<TextureMap> {
-    let told = node.state.extra.as_ref().and_then(|extra| extra.maps[0]);
-    let by_size = || node.state.look.tile.map(|size| laid(normal(), size));
-    told.or_else(by_size)
+fn map_on(node: &Node, outline: impl Fn() -> Vec<DVec3>) -> Option<TextureMap> {
+    let extra = node.state.extra.as_ref();
+    let own = extra.and_then(|extra| extra.separate[0]);
+    let own = own.map(|own| own.on(&outline()));
+    let told = extra.and_then(|extra| extra.maps[0]);
+    let by_size = || {
+        let size = node.state.look.tile?;
+        Some(laid(normal(&outline()), size))
+    };
+    own.filter(TextureMap::is_sound).or(told).or_else(by_size)
 }
 
 /// From an asset's frame to that of places, by rows: a turn with a stretch, from the frame of the

@@ -9,6 +9,7 @@ use crate::shape::Form;
 
 use super::marks::{Made, Mark};
 use super::operations::TrimPlane;
+use super::separate::Separate;
 use super::texture_map::{TextureMap, LAYERS};
 use super::value::Value;
 
@@ -62,6 +63,8 @@ pub struct Extra {
     pub projections: [Option<TextureMap>; LAYERS],
     /// Where the texture lies, by layer; None is the shape's scope from 0 to 1.
     pub maps: [Option<TextureMap>; LAYERS],
+    /// Coordinates that each face has by itself, by layer, in place of those of the whole.
+    pub separate: [Option<Separate>; LAYERS],
     /// Origin and axes of the pivot; None is that of the start shape.
     pub pivot: Option<(DVec3, DMat3)>,
     /// The planes of `trim`.
@@ -134,6 +137,9 @@ impl State {
             for map in extra.maps.iter_mut().flatten() {
                 *map = change(map);
             }
+            for own in extra.separate.iter_mut().flatten() {
+                *own = own.carried(&change);
+            }
         }
     }
 
@@ -154,6 +160,7 @@ impl State {
             let mesh = state.form.world_mesh();
             state.extra_mut().settle(&mesh, self.form.scope.axes);
         }
+        state.settle_textures();
         state
     }
 

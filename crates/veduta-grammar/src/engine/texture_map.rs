@@ -9,6 +9,8 @@ use super::state::State;
 
 /// The number of texture layers.
 pub const LAYERS: usize = 10;
+/// Along a face that looks along the growth of a coordinate but for this share, it does not grow.
+const ACROSS: f64 = 1e-6;
 
 /// Texture coordinates of places in the world (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,24 +73,39 @@ impl TextureMap {
         }
     }
 
-    /// How many metres of a surface one unit of u (0) or v (1) covers: the mean over its faces.
+    /// The least and the greatest u (0) or v (1) of these places (m); 0 and 0 of none.
+    pub fn range(&self, axis: usize, places: &[DVec3]) -> (f64, f64) {
+        let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
+        for &place in places {
+            let value = self.at(place)[axis];
+            ends = (ends.0.min(value), ends.1.max(value));
+        }
+        if ends.0 <= ends.1 {
+            ends
+        } else {
+            (0.0, 0.0)
+        }
+    }
+
+    /// How many metres of a surface one unit of u (0) or v (1) covers: by the mean growth per metre of
+    /// its faces. Those that it hardly grows along, as the ends of a cylinder's side do, say little.
     pub fn stretch(&self, axis: usize, mesh: &Mesh) -> f64 {
+        let grow = self.grow[axis];
         let (mut sum, mut area) = (0.0, 0.0);
         for face in mesh.faces() {
             let vector = face.area_vector();
             let own = vector.length();
             if own > 0.0 {
                 let normal = vector / own;
-                let grow = self.grow[axis];
                 let per_metre = (grow - normal * grow.dot(normal)).length();
-                if per_metre > 0.0 {
-                    sum += own / per_metre;
+                if per_metre > ACROSS * grow.length() {
+                    sum += own * per_metre;
                     area += own;
                 }
             }
         }
         if area > 0.0 {
-            sum / area
+            area / sum
         } else {
             0.0
         }

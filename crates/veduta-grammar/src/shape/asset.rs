@@ -17,6 +17,9 @@ pub struct Asset {
     size: DVec3,
     unit: Arc<Mesh>,
     solid: bool,
+    /// Whether its plane z = 0 lies in the plane of what it is put into where that is flat, as that of
+    /// a window lies in the wall; others begin there.
+    pub in_plane: bool,
     face_slot: Vec<u32>,
     slots: Vec<Slot>,
     /// The names of the slots, and the group of each face, where the file has them.
@@ -100,6 +103,7 @@ impl Asset {
             size,
             unit,
             solid,
+            in_plane: false,
             face_slot,
             slots: vec![Slot {
                 colour: None,

@@ -49,7 +49,8 @@ class Asset:
     seen from outside. offsets: (f + 1,) int64, first corner of each face. face_slot: (f,) int32.
     given_box_m: the box that fills a scope where it is not that around the points: all levels of
     detail have the finest one's, so that they stand in the same place. face_group: (f,) place in
-    `groups`, the names that the asset's file has; empty where it has none.
+    `groups`, the names that the asset's file has; empty where it has none. in_plane: whether its
+    plane z = 0 lies in that of a flat shape that it is put into, as a window's in a wall.
     """
 
     name: str
@@ -61,6 +62,7 @@ class Asset:
     given_box_m: NDArray[np.float64] | None = None
     face_group: NDArray[np.int32] = field(default_factory=lambda: np.zeros(0, np.int32))
     groups: tuple[str, ...] = ()
+    in_plane: bool = False
 
     @cached_property
     def box_m(self) -> NDArray[np.float64]:
@@ -86,6 +88,7 @@ class Asset:
             face_slot=np.searchsorted(chosen, self.face_slot[faces]).astype(np.int32),
             slots=tuple(self.slots[number] for number in chosen),
             given_box_m=self.box_m,
+            in_plane=self.in_plane,
         )
 
     def seen(self, mirrored: bool, inside_out: bool) -> Asset:

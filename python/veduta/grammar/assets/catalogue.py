@@ -100,7 +100,7 @@ def builtin(name: str) -> Asset | None:
     if colon:
         whole, slots = builtin(name.replace(f":{part}", "", 1)), PARTS.get(plain, {}).get(part)
         return None if whole is None or slots is None else whole.part(name, slots)
-    finest = maker(name, 0)
+    finest = replace(maker(name, 0), in_plane=True)
     if level in ("", "0"):
         return finest
-    return replace(maker(name, int(level)), given_box_m=finest.box_m)
+    return replace(maker(name, int(level)), given_box_m=finest.box_m, in_plane=True)

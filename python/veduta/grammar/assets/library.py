@@ -57,7 +57,8 @@ class Library:
         if asset.groups:
             names = [slot.name for slot in asset.slots]
             labels = (names, asset.face_group.tolist(), list(asset.groups))
-        rules.add_asset(name, *faces, asset.box_m, asset.face_slot, slots, labels)
+        looks = (asset.face_slot, slots, labels)
+        rules.add_asset(name, *faces, asset.box_m, *looks, in_plane=asset.in_plane)
 
     def add_written_to(self, rules: _core.GrammarRules) -> None:
         """Hand over the assets whose names stand in the rules.

@@ -11,9 +11,6 @@ use super::super::run::Run;
 use super::word;
 use crate::shape::{Asset, Geometry, Instance, Scope};
 
-/// What the names of assets begin with that Veduta brings along.
-const OWN: &str = "builtin/";
-
 /// Operations that leave an asset whole: they change where it stands and how it looks, or do not
 /// look at it at all.
 const KEEPS_WHOLE: &[&str] = &[
@@ -42,8 +39,8 @@ const KEEPS_WHOLE: &[&str] = &[
 
 /// `i(name)`, `i(name, yUp | zUp)`, `i(name, yUp | zUp, mode)`: the asset stretched to the scope.
 /// Along an axis where the scope has no size, the asset keeps its proportion to the others; it begins in
-/// a flat scope, and lies where it lies in its own frame where two sizes or all are missing. An asset that
-/// Veduta brings along lies there in a flat scope, too: its plane z = 0 is that of a wall. `keepSizeAndPosition` takes all sizes of the scope for none;
+/// a flat scope, and lies where it lies in its own frame where two sizes or all are missing; in a flat
+/// scope, too, where its plane z = 0 is that of a wall. `keepSizeAndPosition` takes all sizes of the scope for none;
 /// `keepSizeAlignPosition` keeps the asset's size and stands it in the middle of the scope's floor.
 /// A fourth word (about cleaning) changes nothing: assets are cleaned when they are read.
 pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
@@ -59,7 +56,7 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     let (by, size) = match mode.as_ref() {
         "keepSizeAndPosition" => (low, size),
         "keepSizeAlignPosition" => (DVec3::new(0.5, 0.0, 0.5) * (scope.size - size), size),
-        _ => fitted(scope.size, low, size, instance.asset.name.starts_with(OWN)),
+        _ => fitted(scope.size, low, size, instance.asset.in_plane),
     };
     frame.state.form.scope = Scope {
         size,
@@ -84,8 +81,8 @@ pub fn asset(
 }
 
 /// How far the scope moves, and its size, for an asset to fill it: where it has no size, the asset
-/// is as large as the mean stretch along the other axes makes it; `is_own` where Veduta brings it along.
-fn fitted(scope: DVec3, low: DVec3, size: DVec3, is_own: bool) -> (DVec3, DVec3) {
+/// is as large as the mean stretch along the other axes makes it; `in_plane` where z = 0 is that of a wall.
+fn fitted(scope: DVec3, low: DVec3, size: DVec3, in_plane: bool) -> (DVec3, DVec3) {
     let axes = (0..3).filter(|&axis| scope[axis] > 0.0 && size[axis] > 0.0);
     let stretches: Vec<f64> = axes.map(|axis| scope[axis] / size[axis]).collect();
     let mean = match stretches.len() {
@@ -93,7 +90,7 @@ fn fitted(scope: DVec3, low: DVec3, size: DVec3, is_own: bool) -> (DVec3, DVec3)
         count => stretches.iter().sum::<f64>() / count as f64,
     };
     let open = scope.cmpeq(DVec3::ZERO);
-    let begins = open.bitmask().count_ones() == 1 && !is_own;
+    let begins = open.bitmask().count_ones() == 1 && !in_plane;
     let by = if begins { DVec3::ZERO } else { low * mean };
     (
         DVec3::select(open, by, DVec3::ZERO),

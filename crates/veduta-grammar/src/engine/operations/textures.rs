@@ -10,8 +10,8 @@ use super::super::code::{Arg, Operation, Sizing};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
+use super::super::separate::{Normalized, Separate};
 use super::super::texture_map::{layer, map_of, TextureMap};
-use super::super::value::Value;
 use super::{axes, number, word};
 use crate::shape::Scope;
 
@@ -87,19 +87,37 @@ fn over_scope(scope: &Scope) -> TextureMap {
 /// `translateUV(layer, u, v)`: adds to the coordinates.
 pub fn translate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let by = [number(run, op, 1, frame)?, number(run, op, 2, frame)?];
-    change(run, op, frame, |map| map.changed([1.0; 2], by))
+    change(
+        run,
+        op,
+        frame,
+        |map| map.changed([1.0; 2], by),
+        |own| own.changed([1.0; 2], by),
+    )
 }
 
 /// `scaleUV(layer, u, v)`: multiplies the coordinates.
 pub fn scale(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let by = [number(run, op, 1, frame)?, number(run, op, 2, frame)?];
-    change(run, op, frame, |map| map.changed(by, [0.0; 2]))
+    change(
+        run,
+        op,
+        frame,
+        |map| map.changed(by, [0.0; 2]),
+        |own| own.changed(by, [0.0; 2]),
+    )
 }
 
 /// `rotateUV(layer, angle)`: turns the coordinates about (0, 0) (degrees).
 pub fn rotate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let angle = number(run, op, 1, frame)?;
-    change(run, op, frame, |map| map.turned(angle))
+    change(
+        run,
+        op,
+        frame,
+        |map| map.turned(angle),
+        |own| own.turned(angle),
+    )
 }
 
 /// `tileUV(layer, width, height)`: tiles of this size on the surface (m; `'` takes it of the
@@ -110,46 +128,42 @@ pub fn tile_uv(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     let mut by = [1.0; 2];
     for axis in 0..2 {
         let stretch = map.stretch(axis, &mesh);
-        let (low, high) = range(&map, axis, &mesh.points);
+        let (low, high) = map.range(axis, &mesh.points);
         let size = tile(run, op, 1 + axis, (high - low) * stretch, frame)?;
         if size != 0.0 && stretch > 0.0 {
             by[axis] = stretch / size;
         }
     }
-    change(run, op, frame, |map| map.changed(by, [0.0; 2]))
+    change(
+        run,
+        op,
+        frame,
+        |map| map.changed(by, [0.0; 2]),
+        |own| own.changed(by, [0.0; 2]),
+    )
 }
 
-/// `normalizeUV(layer, uv | uvUniform | u | v, collectiveAllFaces)`: the coordinates of the shape
-/// from 0 to 1; `uvUniform` multiplies both by the same. `separatePerFace` does so for shapes of
-/// one face; others are normalized as a whole, and a message says so.
+/// `normalizeUV(layer, uv | uvUniform | u | v, separatePerFace | collectiveAllFaces)`: the coordinates of
+/// the shape, or of each of its faces, from 0 to 1; `uvUniform` multiplies both by the same.
 pub fn normalize(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let map = current(run, op, frame)?;
-    let (which, faces) = (word(run, op, 1, frame)?, word(run, op, 2, frame)?);
+    let how = Normalized::named(&word(run, op, 1, frame)?);
+    let apart = word(run, op, 2, frame)?.as_ref() == "separatePerFace";
+    let layer = layer_at(run, op, 0, frame)?;
     let mesh = frame.state.form.world_mesh();
-    if faces.as_ref() == "separatePerFace" && mesh.face_count() > 1 {
-        let told = "normalizeUV: a shape of several faces is normalized as a whole";
-        run.write(&Value::text(told), op.span)?;
+    set(frame, layer, how.of(&map, &mesh.points));
+    if apart && mesh.face_count() > 1 {
+        frame.state.extra_mut().separate[layer] = Some(Separate::of(map, how));
     }
-    let ranges = [0, 1].map(|axis| range(&map, axis, &mesh.points));
-    let over = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 1.0 };
-    let mut by = ranges.map(|(low, high)| over(high - low));
-    match which.as_ref() {
-        "uvUniform" => by = [by[0].min(by[1]); 2],
-        "u" => by[1] = 1.0,
-        "v" => by[0] = 1.0,
-        _ => {}
-    }
-    let moved = [0, 1].map(|axis| match (which.as_ref(), axis) {
-        ("u", 1) | ("v", 0) => 0.0,
-        _ => -ranges[axis].0 * by[axis],
-    });
-    change(run, op, frame, |map| map.changed(by, moved))
+    Ok(())
 }
 
 /// `deleteUV(layer)`: the texture covers the scope of each shape again.
 pub fn delete(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let layer = layer_at(run, op, 0, frame)?;
-    frame.state.extra_mut().maps[layer] = None;
+    let extra = frame.state.extra_mut();
+    extra.maps[layer] = None;
+    extra.separate[layer] = None;
     frame.changed();
     Ok(())
 }
@@ -157,8 +171,11 @@ pub fn delete(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
 /// `copyUV(from, to)`
 pub fn copy(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let map = current(run, op, frame)?;
-    let layer = layer_at(run, op, 1, frame)?;
-    set(frame, layer, map);
+    let (from, to) = (layer_at(run, op, 0, frame)?, layer_at(run, op, 1, frame)?);
+    let extra = frame.state.extra.as_ref();
+    let own = extra.and_then(|extra| extra.separate[from]);
+    set(frame, to, map);
+    frame.state.extra_mut().separate[to] = own;
     Ok(())
 }
 
@@ -172,20 +189,29 @@ pub fn bake(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
 }
 
 fn set(frame: &mut Frame, layer: usize, map: TextureMap) {
-    frame.state.extra_mut().maps[layer] = Some(map);
+    let extra = frame.state.extra_mut();
+    extra.maps[layer] = Some(map);
+    extra.separate[layer] = None;
     frame.changed();
 }
 
-/// Changes the map of the layer that the first argument names.
+/// Changes the map of the layer that the first argument names, and that of each face where they have
+/// their own.
 fn change(
     run: &mut Run<'_>,
     op: &Operation,
     frame: &mut Frame,
     change: impl FnOnce(TextureMap) -> TextureMap,
+    of_faces: impl FnOnce(Separate) -> Separate,
 ) -> Result<(), Fault> {
     let map = change(current(run, op, frame)?);
     let layer = layer_at(run, op, 0, frame)?;
+    let extra = frame.state.extra.as_ref();
+    let own = extra.and_then(|extra| extra.separate[layer]).map(of_faces);
     set(frame, layer, map);
+    if own.is_some() {
+        frame.state.extra_mut().separate[layer] = own;
+    }
     Ok(())
 }
 
@@ -242,10 +268,6 @@ fn extent(frame: &Frame, direction: DVec3) -> f64 {
     let places = points.iter().map(|point| point.dot(direction));
     let (low, high) = ends(places);
     high - low
-}
-
-fn range(map: &TextureMap, axis: usize, points: &[DVec3]) -> (f64, f64) {
-    ends(points.iter().map(|&point| map.at(point)[axis]))
 }
 
 /// The least and the greatest; 0 and 0 of nothing.
