@@ -218,7 +218,8 @@ def test_systems_in_feet_and_other_degrees_become_metres(
     sides = np.sort(np.linalg.norm(np.roll(ring, -1, axis=0) - ring, axis=1))
     np.testing.assert_allclose(sides, [9, 9, 12, 12], rtol=0.01)
     east, north = lots.origin_m[:2]
-    assert abs(east - 585_000) < 3000 and abs(north - 4_510_000) < 8000
+    assert abs(east - 585_000) < 3000
+    assert abs(north - 4_510_000) < 8000
 
 
 def test_lines_of_a_kml_file_say_where_fronts_are(tmp_path: Path) -> None:
