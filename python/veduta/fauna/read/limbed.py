@@ -12,7 +12,7 @@ from veduta.fauna.document.plan import BodyPlan
 from veduta.fauna.motion.figure import Floats, figure_of
 from veduta.fauna.read.fit import Basis, Fit, FitLooks, Fitted, cycle_basis, spline_basis
 from veduta.fauna.read.silhouettes import Masks
-from veduta.fauna.read.starts import Start, StartLooks, best_start, legs_again
+from veduta.fauna.read.starts import Start, StartLooks, best_start, legs_together
 from veduta.fauna.read.windows import Windows, middles_of, repeat_of, windows_of
 
 
@@ -78,7 +78,7 @@ def fit_limbed(
     )
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
-        start = legs_again(start, looks.start, heard)
+        start = legs_together(start, looks.start, heard)
     fine = replace(windows_of(masks, looks.fine_cells, middle), pins=pins or {})
     if start.fit.windows.faces < 0.0:
         fine = fine.mirrored()

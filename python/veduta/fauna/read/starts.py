@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.fauna.motion.figure import Figure, Floats, Limb, posed
 from veduta.fauna.read.drawn import drawn_figure
@@ -29,9 +31,14 @@ class StartLooks:
     tail_turns_rad: tuple[float, ...] = (-0.8, -0.4, 0.0, 0.5, 1.0)
     more_steps: int = 40
     again_steps: int = 15
-    """Of a pair of legs that is begun anew."""
-    gain: float = 0.01
-    """That is kept where the loss is less by this share."""
+    """Of legs that are begun anew."""
+    choices: int = 64
+    """Of phases of all pairs of legs, at most."""
+    together: int = 3
+    """So many of them go on, in all frames, for so many steps."""
+    together_steps: int = 25
+    gain: float = 0.005
+    """They are kept where the loss is less by this share."""
     stride_rad: float = 0.4
     """How far a leg swings at first."""
     bend_rad: float = 0.35
@@ -69,7 +76,7 @@ def best_start(
     otherwise, too, and the best of those goes on.
     """
     scale = scale_of(figure, windows)
-    few = np.unique(np.linspace(0, len(frames) - 1, tries.frames).round().astype(np.int64))
+    few = _few(len(frames), tries.frames)
     found: list[Start] = []
     for way in faces:
         seen = windows if way == windows.faces else windows.mirrored()
@@ -124,9 +131,14 @@ def _phases(count: int, fit: Fit) -> list[tuple[float, float]]:
     """
     if not fit.basis.shared:
         return [(0.0, 0.0)]
-    told = fit.top or any(name.endswith("_left") for name in fit.pinned)
-    half = np.arange(count) * (1.0 if told else 0.5) / count
+    half = np.arange(count) * _span(fit) / count
     return [(float(front), float(hind)) for front in half for hind in half]
+
+
+def _span(fit: Fit) -> float:
+    """The share of a stride in which phases look different."""
+    told = fit.top or any(name.endswith("_left") for name in fit.pinned)
+    return 1.0 if told else 0.5
 
 
 def _begin(fit: Fit, front: float, hind: float, tries: StartLooks) -> Floats:
@@ -167,27 +179,58 @@ def _swing(fit: Fit, shares: Floats, limb: Limb, phase: float, tries: StartLooks
         shares[row, 1 + order] = size * np.sin(turn)
 
 
-def legs_again(start: Start, tries: StartLooks, heard: Callable[[], None]) -> Start:
-    """The start with each pair of legs begun anew at several phases, where it covers more so.
+def legs_together(start: Start, tries: StartLooks, heard: Callable[[], None]) -> Start:
+    """The start with all pairs of legs begun anew at once, where they cover more so.
 
-    A leg that once swings where nothing is seldom finds back by itself.
+    A leg that once swings where nothing is seldom finds back by itself: not while another pair
+    covers its place, nor while its length has grown to cover what it should not. So all of them
+    begin at each choice of phases, in the plan's shape, in a few of the frames; the best go on.
     """
     fit = start.fit
     if not fit.basis.shared:
         return start
-    own = {int(segment) for segment in fit.groups}
-    legs = [limb for limb in fit.figure.feet() if limb.segments[0] in own]
-    told = fit.top or any(name.endswith("_left") for name in fit.pinned)
-    phases = np.arange(tries.phases) * (1.0 if told else 0.5) / tries.phases
+    legs = _own_legs(fit)
+    rows = _few(len(fit.frames), tries.frames)
+    less = Fit(fit.figure, fit.windows.of(rows), fit.basis.of(rows), fit.looks, fit.frames[rows])
+    begun = fit.moved_to(less, start.numbers)
+    found: list[tuple[float, Floats]] = []
+    for phases in product(_phases_of(len(legs), tries, fit), repeat=len(legs)):
+        numbers = begun.copy()
+        for limb, phase in zip(legs, phases, strict=True):
+            _as_planned(less, numbers, limb)
+            _swing(less, less.part(numbers, "shares"), limb, phase, tries)
+        numbers, loss = less.improve(
+            numbers, start.px_per_length, tries.soft, tries.again_steps, heard
+        )
+        found.append((loss, numbers))
+    found.sort(key=lambda one: one[0])
     best = start
-    for limb in legs:
-        begun = best.numbers
-        for phase in phases:
-            numbers = begun.copy()
-            _swing(fit, fit.part(numbers, "shares"), limb, float(phase), tries)
-            numbers, loss = fit.improve(
-                numbers, start.px_per_length, tries.soft, tries.again_steps, heard
-            )
-            if loss < best.loss * (1.0 - tries.gain):
-                best = Start(fit, numbers, start.px_per_length, loss)
+    for _, few in found[: tries.together]:
+        numbers, loss = fit.improve(
+            less.moved_to(fit, few), start.px_per_length, tries.soft, tries.together_steps, heard
+        )
+        if loss < best.loss * (1.0 - tries.gain):
+            best = Start(fit, numbers, start.px_per_length, loss)
     return best
+
+
+def _own_legs(fit: Fit) -> list[Limb]:
+    """Of each pair the one whose numbers both have."""
+    own = {int(segment) for segment in fit.groups}
+    return [limb for limb in fit.figure.feet() if limb.segments[0] in own]
+
+
+def _phases_of(pairs: int, tries: StartLooks, fit: Fit) -> list[float]:
+    """Of one pair of legs: of many pairs fewer, so that the choices stay within their bound."""
+    count = min(tries.phases, max(2, int(tries.choices ** (1.0 / max(pairs, 1)) + 1e-9)))
+    return [_span(fit) * number / count for number in range(count)]
+
+
+def _as_planned(fit: Fit, numbers: Floats, limb: Limb) -> None:
+    """Gives a limb the plan's lengths and thickness again, in place."""
+    fit.part(numbers, "length")[fit.twin_segment[list(limb.segments)]] = 0.0
+    fit.part(numbers, "deep")[fit.twin_joint[list(limb.joints[1:])]] = 0.0
+
+
+def _few(count: int, frames: int) -> NDArray[np.int64]:
+    return np.unique(np.linspace(0, count - 1, frames).round().astype(np.int64))
