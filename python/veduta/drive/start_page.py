@@ -19,6 +19,7 @@ from veduta.drive.read.surface_picture import draw_surface
 from veduta.drive.record import Overview
 from veduta.run.atomic import atomic_write
 from veduta.run.errors import InputError
+from veduta.run.names import real_path
 
 LONGEST_PX = 2400
 """The longer side of the picture; a click is as exact as one of its pixels."""
@@ -38,7 +39,7 @@ def write_start_page(log: Path, page: Path) -> None:
     overview = draw_surface(
         log / surface.file, (0.0, 0.0, 0.0), (-_FAR_M, -_FAR_M), (_FAR_M, _FAR_M)
     )
-    text = start_page(log.resolve().name, surface, overview)
+    text = start_page(real_path(log).name, surface, overview)
     with atomic_write(page) as written:
         written.write_text(text, encoding="utf-8")
 
