@@ -194,8 +194,8 @@ def _lay_before(
     """Up to four sprites over each crop; also where they are, (n, c, c)."""
     count, device = len(pixels), pixels.device
     hidden = torch.zeros(count, CROP_PX, CROP_PX, dtype=torch.bool, device=device)
-    names = ("tree", "hedge", "vehicle", "person", "fence", "wire", "other")
-    shares = (0.2, 0.12, 0.26, 0.16, 0.1, 0.08, 0.08)
+    names = ("tree", "hedge", "vehicle", "person", "fence", "wire", "other", "ornament")
+    shares = (0.18, 0.1, 0.24, 0.14, 0.09, 0.08, 0.07, 0.1)
     for _ in range(4):
         kind = [names[int(k)] for k in rng.choice(len(names), count, p=shares)]
         which = torch.tensor([int(rng.choice(sprites.by_name[k])) for k in kind], device=device)
@@ -222,12 +222,15 @@ def _stand(kind: str, rng: np.random.Generator) -> np.ndarray:
         "hedge": (0.2, 0.8),
         "vehicle": (0.15, 0.7),
         "person": (0.08, 0.45),
+        "ornament": (0.06, 0.5),
     }
     low, high = large.get(kind, (0.15, 0.9))
     size = np.exp(rng.uniform(np.log(low), np.log(high)))
     wide = {"hedge": 3.0, "fence": 2.5, "wire": 2.5, "vehicle": 1.15}.get(kind, 1.0)
     half = size * np.array([wide * rng.uniform(0.8, 1.3), 1.0 if kind != "wire" else 2.0])
-    foot = rng.uniform(-0.3, 1.25) if kind != "wire" else rng.uniform(0, 2)
+    foot = rng.uniform(-0.3, 1.25)
+    if kind in ("wire", "ornament"):  # these hang
+        foot = rng.uniform(0, 2) if kind == "wire" else rng.uniform(-0.9, 1.25)
     at = np.array([rng.uniform(-1.1, 1.1), foot - half[1]])
     mirror = -1.0 if rng.random() < 0.5 else 1.0
     return np.array(

@@ -1,6 +1,6 @@
 """Synthetic facades with a label per pixel, for `prepare.py`.
 
-    python training/facade/renders.py OUT [--count 240]
+    python training/facade/renders.py OUT [--count 640]
 
 About a second each. OUT gets NAME.jpg and NAME.png; the channels of the latter are the label (a
 place in `veduta.place.semantics.LABELS`) and the semantic code of what each pixel shows (255: sky).
@@ -29,7 +29,7 @@ def main() -> None:
     """Render, one seed after the other; what is there stays."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("out", type=Path)
-    parser.add_argument("--count", type=int, default=240)
+    parser.add_argument("--count", type=int, default=640)
     call = parser.parse_args()
     call.out.mkdir(parents=True, exist_ok=True)
     for seed in range(call.count):

@@ -3,9 +3,9 @@
     python training/facade/sprites.py OUT     (after prepare.py OUT)
 
 Writes `sprites.npz`: `pixels` (n, 4, SIDE, SIDE) uint8 RGBA, `kinds` (n,) places in CLASSES. Drawn
-are trees in leaf and bare, hedges, cars, vans, people, fences, wires, lamps. Cut out of the
-training pictures (of CC0 and CMP, never of those held out) are the vehicles and people of
-`marks.json`.
+are trees in leaf and bare, hedges, cars, vans, people, fences, wires, lamps, and signs, which are
+parts of the wall. Cut out of the training pictures (of CC0 and CMP, never of those held out) are
+the vehicles and people of `marks.json`.
 """
 
 from __future__ import annotations
@@ -221,6 +221,35 @@ def _lamp(rng: Rng) -> Picture:
     return sprite
 
 
+def _sign(rng: Rng) -> Picture:
+    """A board, a banner or a poster on the wall: flat, with words or stripes, and no opening."""
+    sprite = _blank()
+    half = np.array([rng.uniform(18, 78), rng.uniform(8, 78)])
+    x0, y0 = (int(v) for v in SIDE / 2 - half)
+    x1, y1 = (int(v) for v in SIDE / 2 + half)
+    board = rng.uniform(0, 255, 3)
+    ink = np.where(board.mean() > 127, rng.uniform(0, 90, 3), rng.uniform(165, 255, 3))
+    cv2.rectangle(sprite, (x0, y0), (x1, y1), (*(float(v) for v in board), 255), -1)
+    if rng.random() < 0.5:
+        cv2.rectangle(sprite, (x0, y0), (x1, y1), (*(float(v) for v in ink), 255), 2)
+    if rng.random() < 0.4:  # a picture on it
+        patch = np.clip(board[None, None] + 60 * _noise(rng, (8, 30))[..., None], 0, 255)
+        low = y0 + int(0.4 * (y1 - y0))
+        sprite[low : y1 - 3, x0 + 3 : x1 - 3, :3] = patch[low : y1 - 3, x0 + 3 : x1 - 3]
+    at = float(y0)
+    while at < y1 - 4 and rng.random() < 0.9:
+        size = rng.uniform(0.25, 1.2)
+        at += 24 * size
+        letters = "".join(chr(int(code)) for code in rng.integers(65, 91, int(rng.integers(2, 12))))
+        face = int(rng.integers(0, 8))
+        place = (x0 + int(rng.uniform(2, 12)), int(at))
+        thick = int(rng.integers(1, 4))
+        drawn = sprite.copy()
+        cv2.putText(drawn, letters, place, face, size, (*(float(v) for v in ink), 255), thick)
+        sprite[y0 : y1 + 1, x0 : x1 + 1] = drawn[y0 : y1 + 1, x0 : x1 + 1]
+    return _shaded(rng, sprite)
+
+
 DRAWN: tuple[tuple[str, Callable[[Rng], Picture]], ...] = (
     ("tree", _tree),
     ("hedge", _hedge),
@@ -229,6 +258,7 @@ DRAWN: tuple[tuple[str, Callable[[Rng], Picture]], ...] = (
     ("fence", _fence),
     ("wire", _wires),
     ("other", _lamp),
+    ("ornament", _sign),
 )
 
 

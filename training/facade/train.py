@@ -2,10 +2,10 @@
 
     python training/facade/prepare.py SETS --renders RENDERS
     python training/facade/sprites.py SETS
-    python training/facade/train.py SETS OUT --minutes 7
+    python training/facade/train.py SETS OUT --minutes 19
 
-Needs torch, onnx and onnxscript, which the package itself never does, and wants a GPU: about seven
-minutes of one, or a day of a processor. OUT gets `eyes.onnx` (weights at half precision) and
+Needs torch, onnx and onnxscript, which the package itself never does, and wants a GPU: about twenty
+minutes of one, or days of a processor. OUT gets `eyes.onnx` (weights at half precision) and
 `eyes.pt`.
 """
 
@@ -44,7 +44,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("sets", type=Path)
     parser.add_argument("out", type=Path)
-    parser.add_argument("--minutes", type=float, default=7.0)
+    parser.add_argument("--minutes", type=float, default=19.0)
     parser.add_argument("--batch", type=int, default=64)
     parser.add_argument("--rate", type=float, default=2.5e-3)
     parser.add_argument("--seed", type=int, default=1)

@@ -43,8 +43,8 @@ class StoreyParameters:
     """When what lies above the eaves is a storey, and when an outline is the building's.
 
     `no_roof`: the chance of wall above the eaves from which on there is no roof but more of the
-    wall. Of 26 pictures of three sets, those with a roof have 0.71 at most, those without 0.77 and
-    more.
+    wall. Of a hundred pictures of two sets (40 of ECP train, 60 of CMP) it decides in eight: three
+    with a roof have 0.76, 0.76 and 0.81, five without 0.75 to 0.87.
     `as_many`, `as_large`: where no sky is seen, the share of the fullest row's windows, and of the
     usual area, from which on a row above the eaves is a storey.
     `level`: from which row, as a share of the picture's height, a column of the photo begins below
@@ -54,7 +54,7 @@ class StoreyParameters:
     All but the first are set by hand: what they were tried on is not kept.
     """
 
-    no_roof: float = 0.75
+    no_roof: float = 0.82
     as_many: float = 0.6
     as_large: float = 0.5
     level: float = 0.02
