@@ -203,9 +203,25 @@ fn tables_are_read_into_arrays() {
 }
 
 #[test]
+fn names_with_spaces_are_one_cell_and_numbers_between_spaces_are_several() {
+    let mut options = project();
+    options.files = Arc::new(Files {
+        texts: HashMap::from([
+            ("streets.txt".into(), "Main Street\nHigh Street\n".into()),
+            ("rows.txt".into(), "1 2.5 3\n4 5 6\n".into()),
+        ]),
+        ..Files::default()
+    });
+    let told = |value: &str| said_with(&format!("Lot --> print({value})"), &options);
+    let street = told("readStringTable(\"streets.txt\")[1, 0]");
+    assert_eq!(street, ["High Street"]);
+    assert_eq!(told("readFloatTable(\"rows.txt\")[1, 2]"), ["6"]);
+}
+
+#[test]
 fn what_no_reference_has_is_taken_for_nothing() {
     // Not the slip of a pen, so that the file derives, and says what it was taken for.
-    let text = "Lot --> print(3 + geometry.lowerheight) print(2 * scope.skew(2) + 1)";
+    let text = "Lot --> print(3 + geometry.lowerheight) print(2 * scope.curvature(2) + 1)";
     assert_eq!(sizes(text), ["3", "1"]);
     let program = Program::single(Source::new("test.cga", text));
     let checked = check(&program);
@@ -217,7 +233,7 @@ fn what_no_reference_has_is_taken_for_nothing() {
         told,
         [
             "`geometry.lowerheight` does not derive: it is taken for 0",
-            "`scope.skew` does not derive: it is taken for 0"
+            "`scope.curvature` does not derive: it is taken for 0"
         ]
     );
     // A slip is one, and other names are nobody's.

@@ -41,7 +41,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "6"
+VERSION = "7"
 MODEL, POINTS = "object.glb", "object.ply"
 
 

@@ -54,7 +54,7 @@ from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 from veduta.surfaces import Simplified, simplify, vertex_normals
 
-VERSION = "7"
+VERSION = "8"
 SURFACE = "surface"
 
 

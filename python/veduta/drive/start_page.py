@@ -6,6 +6,7 @@ The click is the paper's one manual step. The page shows what of `drive.toml` it
 from __future__ import annotations
 
 import base64
+import json
 from pathlib import Path
 
 import cv2
@@ -36,8 +37,10 @@ def write_start_page(log: Path, page: Path) -> None:
     if surface is None:
         fault = "names no surface model"
         raise InputError(toml, fault, 'Write [surface] and file = "MODEL.tif" into it first.')
+    if not page.parent.is_dir():
+        raise InputError(page.parent, "there is no such folder", "Make it first, or name another.")
     overview = draw_surface(
-        log / surface.file, (0.0, 0.0, 0.0), (-_FAR_M, -_FAR_M), (_FAR_M, _FAR_M)
+        log / surface.file, (0.0, 0.0, 0.0), (-_FAR_M, -_FAR_M), (_FAR_M, _FAR_M), LONGEST_PX
     )
     text = start_page(real_path(log).name, surface, overview)
     with atomic_write(page) as written:
@@ -57,6 +60,9 @@ def start_page(name: str, surface: Surface, overview: Overview) -> str:
         ("within", "off by at most (m)", surface.within_m),
     ]
     finest = overview.cell_m * max(1.0, max(rows, columns) / LONGEST_PX)
+    told = surface.model_dump(
+        exclude_unset=True, exclude={"file", "start", "heading_deg", "within_m", "search"}
+    )
     environment = Environment(
         loader=PackageLoader("veduta.drive"), autoescape=True, undefined=StrictUndefined
     )
@@ -65,7 +71,12 @@ def start_page(name: str, surface: Surface, overview: Overview) -> str:
         picture=_picture(overview.pixels),
         fields=fields,
         note=f"A pixel of the picture is {finest:.2g} m.",
-        place={"file": surface.file, "low": list(overview.low), "high": high},
+        place={
+            "file": surface.file,
+            "low": list(overview.low),
+            "high": high,
+            "kept": [f"{key} = {json.dumps(value)}" for key, value in told.items()],
+        },
     )
 
 

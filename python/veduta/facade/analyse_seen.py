@@ -245,6 +245,10 @@ def _read(
         wall = front.wall[: inner.height, sides.left : sides.right]
         storeys = storeys_of(inner, skyline, elements, wall, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
+        step.rejected.extend(
+            f"{one.kind}: between even storeys, or in a strip: a relief or a sign"
+            for one in storeys.none
+        )
     with timed_step(steps, "openings") as step:
         elements = [e for e in elements if e not in storeys.none]
         elements = on_their_floors(elements, storeys.floors.boundaries)

@@ -237,6 +237,9 @@ def _moved_frame(
     if not (math.isfinite(longitude) and MIN_LATITUDE_DEG <= latitude <= MAX_LATITUDE_DEG):
         fault = f"says EPSG:{epsg}, but its coordinates lie beyond it"
         raise InputError(path, fault, "Name the CRS that they are in, with --crs.")
+    corners = moved(ends, epsg, LONGITUDE_LATITUDE)
+    if float(np.ptp(corners[:, 0])) > MAX_ZONE_WIDTH_DEG:
+        raise InputError(path, "spans more than a zone of UTM in longitude", "Cut it into several.")
     code = epsg_of(zone_of(longitude), south=latitude < 0)
     low = np.array([math.inf, math.inf, survey.low[2] * unit_m])
     for group in _grouped(outlines):

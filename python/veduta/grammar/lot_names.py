@@ -13,8 +13,8 @@ from veduta.run.errors import InputError
 USUAL: dict[str, tuple[str, ...]] = {
     "height": (
         "building:height", "est_height", "heightAboveGround", "measuredHeight", "HEIGHT",
-        "hauteur", "hoehe", "altezza", "altura", "hoogte", "building_height", "bldg_height",
-        "heightroof", "gebaeudehoehe", "geb_hoehe",
+        "hauteur", "hoehe", "altezza", "altura", "hoogte", "building_height", "gebaeudehoehe",
+        "geb_hoehe",
     ),
     "eaveHeight": ("eaves_height", "EAVE_HEIGHT"),
     "levels": (
@@ -31,7 +31,9 @@ USUAL: dict[str, tuple[str, ...]] = {
     "year": ("start_date", "year_built", "YEAR", "dateOfConstruction"),
 }  # fmt: skip
 """By a name that rule files often have: keys of OpenStreetMap, INSPIRE and national data. They are
-known in any case, with umlauts, and with or without `_` and `-` (`Höhe`, `NumFloors`)."""
+known in any case, with umlauts, and with or without `_` and `-` (`Höhe`, `NumFloors`). Names that
+American cities use for heights in feet (`heightroof`, `bldg_height`) are not: a bare number is one
+of metres."""
 _SAME = (("levels", "floors", "nFloors", "storeys", "stories", "numFloors"), ("height", "Height"))
 """Names of rule files that mean the same."""
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
@@ -72,14 +74,18 @@ def property_of(
             if usual in properties:
                 return properties[usual]
     usual_names = {_folded(usual) for other in alike for usual in USUAL.get(other, ())}
-    found = (value for key, value in properties.items() if _folded(key) in usual_names)
+    found = (
+        value
+        for key, value in properties.items()
+        if value is not None and _folded(key) in usual_names
+    )
     return next(found, None) if usual_names else None
 
 
 @functools.lru_cache(maxsize=4096)
 def _folded(name: str) -> str:
     """A name in lower case without accents, and without what stands between its words."""
-    plain = name.casefold().translate(_UMLAUTS)
+    plain = unicodedata.normalize("NFC", name).casefold().translate(_UMLAUTS)
     parted = unicodedata.normalize("NFKD", plain)
     return "".join(sign for sign in parted if sign.isalnum() or sign == ":")
 

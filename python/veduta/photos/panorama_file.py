@@ -41,7 +41,8 @@ def panoramas_in(structure: Structure, component: int) -> list[dict[str, Any]]:
     found: dict[str, dict[str, Any]] = {}
     for row, image in enumerate(structure.image_ids):
         view = structure.views.get(image)
-        if view is None or view.panorama in found:
+        # Views that no rig holds were each placed for themselves: no one place is known.
+        if view is None or image not in structure.frame_of or view.panorama in found:
             continue
         back = between(cam_from_panorama(view.number), np.eye(3, 4))
         from_world = np.vstack([after(back, structure.cam_from_world[row]), [0.0, 0.0, 0.0, 1.0]])

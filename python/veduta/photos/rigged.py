@@ -16,6 +16,9 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+NO_LENGTH = 1e-9
+"""Poses of one place, worked out from matrices, are not quite at 0."""
+
 
 @dataclass(frozen=True)
 class RigFound:
@@ -136,7 +139,7 @@ def fixed_to_each_other(
 def has_length(model: pycolmap.Reconstruction) -> bool:
     """Whether some cameras of a rig stand apart from each other: panoramas alone do not."""
     return any(
-        pose is not None and np.linalg.norm(pose.translation) > 0.0
+        pose is not None and np.linalg.norm(pose.translation) > NO_LENGTH
         for rig in model.rigs.values()
         for pose in rig.non_ref_sensors.values()
     )

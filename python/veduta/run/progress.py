@@ -110,7 +110,9 @@ class Progress:
 
 def _is_terminal() -> bool:
     """Whether a bar can be drawn there, or is asked for all the same."""
-    return sys.stderr.isatty() or bool(os.environ.get("FORCE_COLOR"))
+    # None where it was closed, or under some services.
+    shown = sys.stderr is not None and sys.stderr.isatty()
+    return shown or bool(os.environ.get("FORCE_COLOR"))
 
 
 def _bar(*, counts: bool) -> Bar:

@@ -44,7 +44,7 @@ from veduta.walk.record import WalkRecord, read_stereo_record
 from veduta.walk.rig import Image, Rig
 from veduta.walk.tell import document_of, tell_marks, tell_walk
 
-VERSION = "9"
+VERSION = "10"
 FILM = "walk.mp4"
 CLOUD_STEP_PX = 6
 CLOUD_FARTHEST_M = 60.0

@@ -190,7 +190,8 @@ def test_names_of_the_call_come_before_those_of_the_file_and_the_usual_ones() ->
 
 def test_usual_names_are_known_in_any_case_and_with_umlauts() -> None:
     assert property_of("height", {"Höhe": "14,5 m"}, {}) == "14,5 m"
-    assert property_of("height", {"HEIGHTROOF": 31.5}, {}) == 31.5
+    assert property_of("height", {"Ho\u0308he": 31.5}, {}) == 31.5
+    assert property_of("height", {"HEIGHTROOF": 100.0}, {}) is None  # of feet, as cities give it
     assert property_of("levels", {"NumFloors": 4, "floor_area": 900}, {}) == 4
     assert property_of("levels", {"Nb-Etages": 3}, {}) == 3
     assert property_of("height", {"heights": 9.0, "roof_height": 3.0}, {}) is None

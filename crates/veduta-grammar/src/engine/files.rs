@@ -181,18 +181,23 @@ fn content<'a>(files: &'a Files, name: &str) -> Result<&'a str, String> {
         .ok_or_else(|| format!("there is no text file {name}"))
 }
 
-/// Rows of lines, columns between semicolons, tabs, commas or spaces, whichever the first line has.
+/// Rows of lines, columns between semicolons, tabs or commas, whichever the first line has; between
+/// spaces where it has numbers alone, since names may have spaces.
 fn table(text: &str, value: impl Fn(&str) -> Value) -> Result<Value, String> {
     let lines = || text.lines().filter(|line| !line.trim().is_empty());
     let first = lines().next().unwrap_or("");
     let between = [';', '\t', ',']
         .into_iter()
         .find(|sign| first.contains(*sign));
+    let spaced = first
+        .split_whitespace()
+        .all(|cell| cell.parse::<f64>().is_ok());
     let cells = |line: &'_ str| -> Vec<String> {
         let own = |cell: &str| cell.trim().trim_matches('"').to_string();
         match between {
             Some(sign) => line.split(sign).map(own).collect(),
-            None => line.split_whitespace().map(own).collect(),
+            None if spaced => line.split_whitespace().map(own).collect(),
+            None => vec![own(line)],
         }
     };
     let columns = lines().map(|line| cells(line).len()).max().unwrap_or(0);

@@ -53,5 +53,15 @@ pub fn format(text: &str) -> Result<String, Vec<Diagnostic>> {
     if !formatted.is_empty() && !lines.is_empty() && (blank || after_tall_rule) {
         formatted.push('\n');
     }
-    Ok(formatted + &lines)
+    formatted.push_str(&lines);
+    Ok(with_one_end(&formatted))
+}
+
+/// Without empty lines at the end, which groups without words leave there: formatted again they
+/// would be others.
+fn with_one_end(text: &str) -> String {
+    match text.trim_end() {
+        "" => String::new(),
+        kept => [kept, "\n"].concat(),
+    }
 }

@@ -20,8 +20,12 @@ def draw_surface(
     origin_m: tuple[float, float, float],
     low: tuple[float, float],
     high: tuple[float, float],
+    longest_px: int | None = None,
 ) -> Overview:
-    """What of it lies between two corners (m, about the origin). InputError as its reader's."""
+    """What of it lies between two corners (m, about the origin). InputError as its reader's.
+
+    longest_px: the longer side is thinned to so many cells, about, before it is lit.
+    """
     bands, corner, cell_m, _ = read_bands(path)
     begin = np.array(corner) - np.array(origin_m[:2])
     first = np.floor((np.array(low) - begin) / cell_m).astype(int)
@@ -30,6 +34,9 @@ def draw_surface(
     last = np.clip(last, first, [bands.shape[2], bands.shape[1]])
     cut = bands[:, first[1] : last[1], first[0] : last[0]]
     where = begin + first * cell_m
+    if longest_px is not None:
+        every = max(1, -(-max(cut.shape[1:]) // longest_px))
+        cut, cell_m = cut[:, ::every, ::every], cell_m * every
     pixels = _lit(cut[0], cell_m) if len(bands) == 1 else _photo(cut[:3])
     return Overview(pixels, (float(where[0]), float(where[1])), cell_m)
 

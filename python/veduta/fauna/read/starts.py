@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import product
+from itertools import islice, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,7 @@ class StartLooks:
     again_steps: int = 15
     """Of legs that are begun anew."""
     choices: int = 64
-    """Of phases of all pairs of legs, at most."""
+    """Of phases of all pairs of legs, at most: of seven pairs and more the first ones."""
     together: int = 3
     """So many of them go on, in all frames, for so many steps."""
     together_steps: int = 25
@@ -190,11 +190,14 @@ def legs_together(start: Start, tries: StartLooks, heard: Callable[[], None]) ->
     if not fit.basis.shared:
         return start
     legs = _own_legs(fit)
+    if not legs:
+        return start
     rows = _few(len(fit.frames), tries.frames)
     less = Fit(fit.figure, fit.windows.of(rows), fit.basis.of(rows), fit.looks, fit.frames[rows])
     begun = fit.moved_to(less, start.numbers)
     found: list[tuple[float, Floats]] = []
-    for phases in product(_phases_of(len(legs), tries, fit), repeat=len(legs)):
+    every = product(_phases_of(len(legs), tries, fit), repeat=len(legs))
+    for phases in islice(every, tries.choices):
         numbers = begun.copy()
         for limb, phase in zip(legs, phases, strict=True):
             _as_planned(less, numbers, limb)

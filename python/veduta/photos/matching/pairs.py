@@ -164,7 +164,7 @@ def _nearest(photos: Sequence[PhotoRecord], count: int) -> Pairs:
         if other != row
     }
     rest = len(photos) - len(placed)
-    how = f"the {count} nearest by GPS"
+    how = f"the {told} nearest by GPS" + (", counted in panoramas" if views else "")
     if rest:
         pairs |= set(_sequence(photos, min(told, 5)).pairs)
         how += f", and neighbours in order because of {rest} photos without a position"
