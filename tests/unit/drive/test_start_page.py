@@ -43,7 +43,8 @@ def test_the_page_knows_where_its_picture_lies(tmp_path: Path) -> None:
     page = tmp_path / "start.html"
     write_start_page(log_with(tmp_path, heights), page)
     place, pixels = parts_of(page)
-    assert place == {"file": "model <1>.tif", "low": [1000.0, 5000.0], "high": [1120.0, 5080.0]}
+    corners = {"low": [1000.0, 5000.0], "high": [1120.0, 5080.0]}
+    assert place == {"file": "model <1>.tif", **corners, "kept": []}
     assert pixels.shape == (40, 60, 3)
     light = pixels.mean(axis=2)
     row, column = np.unravel_index(light.argmax(), light.shape)
@@ -59,6 +60,20 @@ def test_what_is_known_of_the_start_stands_there(tmp_path: Path) -> None:
     write_start_page(log_with(tmp_path, np.zeros((20, 20)), more), page)
     for key, value in (("x", 1010.5), ("y", 5020.0), ("heading", -45.0), ("within", 8.0)):
         assert f'id="{key}" type="number" step="any" value="{value}"' in page.read_text("utf-8")
+
+
+def test_other_settings_of_the_surface_are_kept(tmp_path: Path) -> None:
+    more = "start = [1010.5, 5020.0]\nwithin_deg = 12.0\nsure = true\n"
+    page = tmp_path / "start.html"
+    write_start_page(log_with(tmp_path, np.zeros((20, 20)), more), page)
+    place, _ = parts_of(page)
+    assert set(place["kept"]) == {"within_deg = 12.0", "sure = true"}
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="there is no such folder") as raised:
+        write_start_page(log_with(tmp_path, np.zeros((20, 20))), tmp_path / "nothere" / "a.html")
+    assert "Make it first" in raised.value.remedy
 
 
 def test_a_large_model_is_shown_smaller(tmp_path: Path) -> None:
