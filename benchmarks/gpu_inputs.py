@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from searched_photo import SEED, coarse_planes, middle_photo
 
 from veduta import _core
 from veduta.cameras import read_cameras
@@ -27,7 +28,7 @@ from veduta.dense.read.linking import (
     match_views,
     pair_range,
 )
-from veduta.dense.read.matching import MatchParameters, match_coarse, match_fine
+from veduta.dense.read.matching import MatchParameters, match_fine
 from veduta.dense.read.neighbours import NeighbourParameters, choose_neighbours
 from veduta.dense.read.pictures import open_views, usable_cameras
 from veduta.dense.read.rectifying import rectified_side, rectify_pair
@@ -39,7 +40,7 @@ from veduta.run.progress import Progress
 
 Arrays = dict[str, NDArray[Any]]
 
-SEARCHED_PX, SEED = 1155, 7  # a megapixel, where photos are 3:2
+SEARCHED_PX = 1155  # a megapixel, where photos are 3:2
 
 
 def carve_inputs(data: Path) -> Arrays:
@@ -95,22 +96,10 @@ def search_inputs(photos_out: Path) -> Arrays:
 
     photos_out: a result of `veduta photos`.
     """
-    given = read_cameras(photos_out)
-    usable, _ = usable_cameras(given)
-    if given.points is None or given.visible is None:
-        raise SystemExit(f"{photos_out} has no points")
-    views = open_views(usable, SEARCHED_PX / max(one.width_px for one in usable), {})
-    comparisons, _ = choose_neighbours(
-        views, SparsePoints(given.points, given.visible), 4, NeighbourParameters()
-    )
-    by_view = {one.view: one for one in comparisons}
-    middle = comparisons[len(comparisons) // 2]
+    views, middle, by_view = middle_photo(photos_out, SEARCHED_PX)
     kept, rule = Kept(), MatchParameters()
     engine = cast(Engine, kept)
-    planes = {
-        view: match_coarse(views, by_view[view], SEED, rule, engine)
-        for view in (*middle.neighbours, middle.view)
-    }
+    planes = coarse_planes(views, middle, by_view, engine, rule)
     match_fine(views, middle, planes, SEED, rule, engine)
     found: Arrays = {}
     levels = (*rule.coarse, rule.fine)

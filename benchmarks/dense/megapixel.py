@@ -16,15 +16,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from record import Row, keep_or_print
+from searched_photo import SEED, coarse_planes, middle_photo
 
-from veduta.cameras import read_cameras
 from veduta.dense.read.matching import MatchParameters, match_coarse, match_fine
-from veduta.dense.read.neighbours import NeighbourParameters, choose_neighbours
-from veduta.dense.read.pictures import open_views, usable_cameras
-from veduta.dense.read.sparse import SparsePoints
 from veduta.run.card import choose_engine
 
-SIZES_PX, NEIGHBOURS, SEED = (640, 1280), 4, 7
+SIZES_PX = (640, 1280)
 
 
 def least_s(rounds: int, step: Callable[[], object]) -> float:
@@ -39,20 +36,9 @@ def least_s(rounds: int, step: Callable[[], object]) -> float:
 
 def searched(found: Path, size_px: int, rounds: int) -> Row:
     """The middle one of the photos at this size."""
-    given = read_cameras(found)
-    usable, _ = usable_cameras(given)
-    if given.points is None or given.visible is None:
-        raise SystemExit(f"{found} has no points: `veduta photos` writes it with them")
-    views = open_views(usable, size_px / max(one.width_px for one in usable), {})
-    sparse = SparsePoints(given.points, given.visible)
-    comparisons, _ = choose_neighbours(views, sparse, NEIGHBOURS, NeighbourParameters())
-    by_view = {one.view: one for one in comparisons}
-    middle = comparisons[len(comparisons) // 2]
+    views, middle, by_view = middle_photo(found, size_px)
     engine, rule = choose_engine("cpu"), MatchParameters()
-    planes = {
-        view: match_coarse(views, by_view[view], SEED, rule, engine)
-        for view in (middle.view, *middle.neighbours)
-    }
+    planes = coarse_planes(views, middle, by_view, engine, rule)
     coarse = least_s(rounds, lambda: match_coarse(views, middle, SEED, rule, engine))
     fine = least_s(rounds, lambda: match_fine(views, middle, planes, SEED, rule, engine))
     camera = views.cameras[middle.view]

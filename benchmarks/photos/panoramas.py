@@ -17,11 +17,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from record import Row, keep_or_print
+from rig_ties import angle_deg, places_off, ties_off
 
 from veduta.formats.place_json import read_place
 from veduta.photos.options import CameraOptions, MatchOptions, PhotosOptions
 from veduta.photos.pipeline import run_photos
-from veduta.photos.world.absolute_orientation import absolute_orientation
 from veduta.run.progress import Progress
 from veduta.synthetic.streets.panorama import panoramas_of
 from veduta.synthetic.streets.photos import Kit, photos_of
@@ -84,15 +84,12 @@ def measured(folder: Path, *, rig: bool) -> Row:
     result = run_photos(photos, out, options, Progress(quiet=True), force=True)
     seconds = time.process_time() - started
     found, spread = _bodies(out, "" if rig else f"{AROUND.name}/")
+    fit, apart = places_off(found, truth)
     names = sorted(found)
-    own = np.array([found[name][:3, 3] for name in names])
-    true = np.array([np.linalg.inv(truth[name])[:3, 3] for name in names])
-    fit = absolute_orientation(own, true)
-    apart = np.linalg.norm(fit.scale * own @ fit.rotation.T + fit.shift - true, axis=1)
     world = np.array([truth[name][:3, :3].T @ found[name][:3, :3].T for name in names])
     left, _, right = np.linalg.svd(world.sum(axis=0))
-    turns = [_angle_deg((left @ right).T @ one) for one in world]
-    base, turn = _ties(found, truth, fit.scale) if rig else (None, None)
+    turns = [angle_deg((left @ right).T @ one) for one in world]
+    base, turn = ties_off(_pairs(found), found, truth, fit.scale) if rig else (None, None)
     return {
         "street": folder.name,
         "photos": "panoramas and two cameras" if rig else "panoramas",
@@ -130,28 +127,10 @@ def _bodies(out: Path, prefix: str) -> tuple[dict[str, Floats], float]:
     return found, spread
 
 
-def _ties(
-    found: dict[str, Floats], truth: dict[str, Floats], scale: float
-) -> tuple[float | None, float | None]:
-    """How far the other cameras' places (cm) and turns (degrees) on the rig are off."""
-    bases, turns = [], []
-    for name, pose in found.items():
-        camera, _, frame = name.partition("/")
-        middle = f"{AROUND.name}/{frame}"
-        if camera == AROUND.name or middle not in found:
-            continue
-        own = np.linalg.inv(pose) @ found[middle]
-        true = truth[name] @ np.linalg.inv(truth[middle])
-        centre, wanted = (-one[:3, :3].T @ one[:3, 3] for one in (own, true))
-        bases.append(100.0 * float(np.linalg.norm(scale * centre - wanted)))
-        turns.append(_angle_deg(own[:3, :3].T @ true[:3, :3]))
-    if not bases:
-        return None, None
-    return float(np.median(bases)), float(np.median(turns))
-
-
-def _angle_deg(rotation: Floats) -> float:
-    return float(np.rad2deg(np.arccos(np.clip((np.trace(rotation) - 1.0) / 2.0, -1.0, 1.0))))
+def _pairs(found: dict[str, Floats]) -> list[tuple[str, str]]:
+    """Photos of the other cameras, each with the panorama of its frame."""
+    pairs = [(name, f"{AROUND.name}/{name.partition('/')[2]}") for name in found]
+    return [(name, middle) for name, middle in pairs if name != middle and middle in found]
 
 
 def main() -> None:

@@ -19,11 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from record import Row, keep_or_print
+from rig_ties import places_off, ties_off
 
 from veduta.formats.place_json import read_place
 from veduta.photos.options import CameraOptions, MatchOptions, PhotosOptions
 from veduta.photos.pipeline import run_photos
-from veduta.photos.world.absolute_orientation import absolute_orientation
 from veduta.run.progress import Progress
 from veduta.synthetic.streets.photos import Kit, photos_of
 from veduta.synthetic.streets.plan import plan_street
@@ -78,12 +78,8 @@ def measured(folder: Path, *, rig: bool) -> Row:
         camera.name if rig else camera.name.replace("--", "/", 1): _pose(camera.transform)
         for camera in read_place(out / "place.json").cameras
     }
-    names = sorted(found)
-    own = np.array([found[name][:3, 3] for name in names])
-    true = np.array([np.linalg.inv(truth[name])[:3, 3] for name in names])
-    fit = absolute_orientation(own, true)
-    apart = np.linalg.norm(fit.scale * own @ fit.rotation.T + fit.shift - true, axis=1)
-    base, turn = _ties(found, truth, fit.scale)
+    fit, apart = places_off(found, truth)
+    base, turn = ties_off(_pairs(found, truth), found, truth, fit.scale)
     return {
         "street": folder.name,
         "rig": "yes" if rig else "no",
@@ -117,25 +113,13 @@ def _pose(transform: tuple[float, ...] | list[float]) -> Floats:
     return found
 
 
-def _ties(
-    found: dict[str, Floats], truth: dict[str, Floats], scale: float
-) -> tuple[float | None, float | None]:
-    """How far base (cm) and turn (degrees) of the second camera are off, in the median."""
-    bases, turns = [], []
+def _pairs(found: dict[str, Floats], truth: dict[str, Floats]) -> list[tuple[str, str]]:
+    """Photos of the second camera, each with that of the first of its frame."""
     first, second = sorted({name.partition("/")[0] for name in truth})
-    for name in found:
-        other = name.replace(f"{first}/", f"{second}/")
-        if not name.startswith(first) or other not in found:
-            continue
-        own = np.linalg.inv(found[other]) @ found[name]
-        true = truth[other] @ np.linalg.inv(truth[name])
-        centre, wanted = (-one[:3, :3].T @ one[:3, 3] for one in (own, true))
-        bases.append(100.0 * float(np.linalg.norm(scale * centre - wanted)))
-        turn = (np.trace(own[:3, :3].T @ true[:3, :3]) - 1.0) / 2.0
-        turns.append(float(np.rad2deg(np.arccos(np.clip(turn, -1.0, 1.0)))))
-    if not bases:
-        return None, None
-    return float(np.median(bases)), float(np.median(turns))
+    pairs = [
+        (name.replace(f"{first}/", f"{second}/"), name) for name in found if name.startswith(first)
+    ]
+    return [pair for pair in pairs if pair[0] in found]
 
 
 def main() -> None:

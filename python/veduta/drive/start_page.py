@@ -59,7 +59,6 @@ def start_page(name: str, surface: Surface, overview: Overview) -> str:
         ("heading", "heading (degrees)", heading),
         ("within", "off by at most (m)", surface.within_m),
     ]
-    finest = overview.cell_m * max(1.0, max(rows, columns) / LONGEST_PX)
     told = surface.model_dump(
         exclude_unset=True, exclude={"file", "start", "heading_deg", "within_m", "search"}
     )
@@ -70,7 +69,7 @@ def start_page(name: str, surface: Surface, overview: Overview) -> str:
         name=name,
         picture=_picture(overview.pixels),
         fields=fields,
-        note=f"A pixel of the picture is {finest:.2g} m.",
+        note=f"A pixel of the picture is {overview.cell_m:.2g} m.",
         place={
             "file": surface.file,
             "low": list(overview.low),
@@ -81,11 +80,7 @@ def start_page(name: str, surface: Surface, overview: Overview) -> str:
 
 
 def _picture(pixels: NDArray[np.uint8]) -> str:
-    """North up, as a JPEG inside the page; a large model smaller."""
+    """North up, as a JPEG inside the page."""
     shown = np.ascontiguousarray(pixels[::-1])
-    factor = min(1.0, LONGEST_PX / max(shown.shape[:2]))
-    if factor < 1.0:
-        size = (max(round(shown.shape[1] * factor), 1), max(round(shown.shape[0] * factor), 1))
-        shown = np.asarray(cv2.resize(shown, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
     _, coded = cv2.imencode(".jpg", shown[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY])
     return f"data:image/jpeg;base64,{base64.b64encode(coded.tobytes()).decode('ascii')}"

@@ -207,9 +207,13 @@ def _require_heights(path: Path, survey: Survey) -> None:
         raise InputError(path, fault, "Check its coordinates.")
 
 
-def _utm_frame(path: Path, survey: Survey, outlines: Iterable[NDArray[np.float64]]) -> Frame:
-    if survey.high[0] - survey.low[0] > MAX_ZONE_WIDTH_DEG:
+def _require_one_zone(path: Path, width_deg: float) -> None:
+    if width_deg > MAX_ZONE_WIDTH_DEG:
         raise InputError(path, "spans more than a zone of UTM in longitude", "Cut it into several.")
+
+
+def _utm_frame(path: Path, survey: Survey, outlines: Iterable[NDArray[np.float64]]) -> Frame:
+    _require_one_zone(path, survey.high[0] - survey.low[0])
     longitude, latitude = survey.middle
     if not MIN_LATITUDE_DEG <= latitude <= MAX_LATITUDE_DEG:
         raise InputError(
@@ -237,9 +241,7 @@ def _moved_frame(
     if not (math.isfinite(longitude) and MIN_LATITUDE_DEG <= latitude <= MAX_LATITUDE_DEG):
         fault = f"says EPSG:{epsg}, but its coordinates lie beyond it"
         raise InputError(path, fault, "Name the CRS that they are in, with --crs.")
-    corners = moved(ends, epsg, LONGITUDE_LATITUDE)
-    if float(np.ptp(corners[:, 0])) > MAX_ZONE_WIDTH_DEG:
-        raise InputError(path, "spans more than a zone of UTM in longitude", "Cut it into several.")
+    _require_one_zone(path, float(np.ptp(moved(ends, epsg, LONGITUDE_LATITUDE)[:, 0])))
     code = epsg_of(zone_of(longitude), south=latitude < 0)
     low = np.array([math.inf, math.inf, survey.low[2] * unit_m])
     for group in _grouped(outlines):

@@ -165,3 +165,11 @@ def between(first: Floats, second: Floats) -> Floats:
 def after(outer: Floats, inner: Floats) -> Floats:
     """(3, 4) outer of inner."""
     return np.column_stack([outer[:, :3] @ inner[:, :3], outer[:, :3] @ inner[:, 3] + outer[:, 3]])
+
+
+def mean_pose(each: Floats) -> Floats:
+    """(3, 4) in the middle of (n, 3, 4) poses of one camera: the mean of their turns and places."""
+    left, _, right = np.linalg.svd(each[:, :, :3].sum(axis=0))
+    turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+    centre = -np.einsum("nji,nj->ni", each[:, :, :3], each[:, :, 3]).mean(axis=0)
+    return np.column_stack([turn, -turn @ centre])

@@ -14,7 +14,7 @@ from veduta.photos.intake.panoramas import cam_from_panorama
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.intake.source import View
 from veduta.photos.mapping.rig_poses import Floats, RigPoses
-from veduta.photos.rigged import after, between
+from veduta.photos.rigged import after, between, mean_pose
 from veduta.photos.structure import Structure
 
 
@@ -51,10 +51,7 @@ def snapped(structure: Structure) -> Structure:
             after(between(cam_from_panorama(number), np.eye(3, 4)), poses[row])
             for row, number in rows.items()
         ]
-        centre = np.mean([-one[:, :3].T @ one[:, 3] for one in each], axis=0)
-        left, _, right = np.linalg.svd(np.sum([one[:, :3] for one in each], axis=0))
-        turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
-        whole = np.column_stack([turn, -turn @ centre])
+        whole = mean_pose(np.array(each))
         for row, number in rows.items():
             poses[row] = after(cam_from_panorama(number), whole)
     return replace(structure, cam_from_world=poses)

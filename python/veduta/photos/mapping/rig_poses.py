@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from veduta.photos.intake.panoramas import cam_from_panorama
 from veduta.photos.intake.read import PhotoRecord
-from veduta.photos.rigged import after, between
+from veduta.photos.rigged import after, between, mean_pose
 from veduta.photos.structure import Structure
 
 FEWEST_FRAMES = 3
@@ -151,10 +151,7 @@ def agreed(each: Floats, reach: float) -> tuple[Floats, int] | None:
     kept = near[middle]
     if votes[middle] < max(FEWEST_FRAMES, 0.5 * len(each)):
         return None
-    left, _, right = np.linalg.svd(each[kept, :, :3].sum(axis=0))
-    rotation = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
-    centre = centres[kept].mean(axis=0)
-    return np.column_stack([rotation, -rotation @ centre]), int(votes[middle])
+    return mean_pose(each[kept]), int(votes[middle])
 
 
 def _angles_deg(rotations: Floats) -> Floats:

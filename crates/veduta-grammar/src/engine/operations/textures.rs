@@ -87,25 +87,13 @@ fn over_scope(scope: &Scope) -> TextureMap {
 /// `translateUV(layer, u, v)`: adds to the coordinates.
 pub fn translate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let by = [number(run, op, 1, frame)?, number(run, op, 2, frame)?];
-    change(
-        run,
-        op,
-        frame,
-        |map| map.changed([1.0; 2], by),
-        |own| own.changed([1.0; 2], by),
-    )
+    scale_and_move(run, op, frame, [1.0; 2], by)
 }
 
 /// `scaleUV(layer, u, v)`: multiplies the coordinates.
 pub fn scale(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let by = [number(run, op, 1, frame)?, number(run, op, 2, frame)?];
-    change(
-        run,
-        op,
-        frame,
-        |map| map.changed(by, [0.0; 2]),
-        |own| own.changed(by, [0.0; 2]),
-    )
+    scale_and_move(run, op, frame, by, [0.0; 2])
 }
 
 /// `rotateUV(layer, angle)`: turns the coordinates about (0, 0) (degrees).
@@ -134,13 +122,7 @@ pub fn tile_uv(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
             by[axis] = stretch / size;
         }
     }
-    change(
-        run,
-        op,
-        frame,
-        |map| map.changed(by, [0.0; 2]),
-        |own| own.changed(by, [0.0; 2]),
-    )
+    scale_and_move(run, op, frame, by, [0.0; 2])
 }
 
 /// `normalizeUV(layer, uv | uvUniform | u | v, separatePerFace | collectiveAllFaces)`: the coordinates of
@@ -213,6 +195,23 @@ fn change(
         frame.state.extra_mut().separate[layer] = own;
     }
     Ok(())
+}
+
+/// Multiplies the coordinates, then adds to them.
+fn scale_and_move(
+    run: &mut Run<'_>,
+    op: &Operation,
+    frame: &mut Frame,
+    by: [f64; 2],
+    shift: [f64; 2],
+) -> Result<(), Fault> {
+    change(
+        run,
+        op,
+        frame,
+        |map| map.changed(by, shift),
+        |own| own.changed(by, shift),
+    )
 }
 
 /// The map of the layer that the first argument names.
