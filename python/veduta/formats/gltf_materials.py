@@ -135,9 +135,15 @@ def _linear(srgb: float) -> float:
 
 
 def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int:
-    """Its name is the digest of its content: who shows several files decodes it once."""
+    """Its name is the digest of its content: who shows several files decodes it once.
+
+    Textures that were made apart may be the same picture: it is in the file once.
+    """
     images = root.setdefault("images", [])
     name = f"{DIGEST}{hashlib.sha256(data).hexdigest()}"
+    for number, image in enumerate(images):
+        if image["name"] == name and image["mimeType"] == mime:
+            return number
     images.append({"name": name, "bufferView": binary.add(data), "mimeType": mime})
     return len(images) - 1
 

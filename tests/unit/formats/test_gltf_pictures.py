@@ -46,6 +46,24 @@ def test_two_models_name_the_same_picture_alike() -> None:
         assert image["name"] == f"sha256-{hashlib.sha256(data).hexdigest()}"
 
 
+def test_textures_made_apart_are_one_picture_in_the_file() -> None:
+    builder = PartBuilder("wall")
+    row = builder.feature(SemanticClass.WALL, Provenance.MEASURED, "wall")
+    for number, name in enumerate(("first", "second", "third")):
+        pixels = np.full((8, 8, 3), 120 if number < 2 else 90, dtype=np.uint8)
+        texture = Texture(pixels, np.zeros((8, 8), dtype=bool))
+        material = builder.material(Material(name, texture=texture))
+        corners = [(0, number, 0), (1, number, 0), (1, number, 1), (0, number, 1)]
+        builder.polygon([corners], row, material, lambda points: points[:, [0, 2]])
+    root, _ = opened(builder.build())
+    assert len(root["images"]) == 2
+    shown = [
+        root["textures"][one["pbrMetallicRoughness"]["baseColorTexture"]["index"]]["source"]
+        for one in root["materials"]
+    ]
+    assert shown == [0, 0, 1]
+
+
 @pytest.mark.parametrize("white", ["none", "all", "some"])
 def test_masks_come_back(white: str, tmp_path: Path) -> None:
     mask = np.full((8, 8), white == "all")
