@@ -63,6 +63,8 @@ def test_a_walk_of_a_gorge(gorge: Path, tmp_path: Path) -> None:
     assert (
         film.get(cv2.CAP_PROP_FRAME_COUNT) == 11
     )  # 4 m at 10 m/s and 25 frames a second, and the end
+    code = int(film.get(cv2.CAP_PROP_FOURCC)).to_bytes(4, "little")
+    assert code in (b"vp09", b"VP90")  # what browsers play
     still, frame = film.read()
     assert still
     assert (

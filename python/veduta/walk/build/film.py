@@ -18,6 +18,9 @@ from veduta.walk.build.way import Way
 from veduta.walk.rig import Image
 
 FRAMES_S = 25
+_CODES = ("vp09", "mp4v")
+"""Of films, the first that is there: browsers play VP9 in MP4, and not MPEG-4 Part 2. OpenCV's own
+packages bring no H.264."""
 Shown = tuple[Image, Screen]
 _SHORTEST_M = 0.5
 
@@ -25,9 +28,10 @@ _SHORTEST_M = 0.5
 def write_film(path: Path, frames: Iterator[Image], screen: Screen) -> int:
     """Write frames as MP4; how many there were. InputError where no encoder does it."""
     size = (screen.width_px // 2 * 2, screen.height_px // 2 * 2)
-    code = cv2.VideoWriter.fourcc(*"mp4v")
-    writer = cv2.VideoWriter(str(path), code, FRAMES_S, size)
-    if not writer.isOpened():
+    writer = cv2.VideoWriter()
+    if not any(
+        writer.open(str(path), cv2.VideoWriter.fourcc(*code), FRAMES_S, size) for code in _CODES
+    ):
         raise InputError(path, "cannot be written as MP4 here", "Leave --video away.")
     count = 0
     try:
