@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from faulty_documents import DOCUMENTS
 from faulty_records import RECORDS
 from PIL import Image
 from place_sample import ball, open_door, posts, sample_place
@@ -212,6 +213,7 @@ CLASSES: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object]]] = {
     "COLLADA": (_place_file(".dae"), read_dae_mesh),
     "PLY mesh": (_place_file(".ply"), veduta.load),
     "CityGML": (_place_file(".gml"), veduta.load),
+    "CityGML 3": (_place_file(".3.gml"), veduta.load),
     "CityJSON": (_place_file(".city.json"), veduta.load),
     "place.json": (_manifest, lambda path: veduta.load(path.parent)),
     "PLY cloud": (_cloud, read_points),
@@ -240,4 +242,5 @@ CLASSES: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object]]] = {
     "GeoTIFF ground": (_grid, lambda path: ground_of(path, 1.0)),
     "MATLAB": (_mat, read_mat),
     **RECORDS,
+    **DOCUMENTS,
 }
