@@ -52,6 +52,8 @@ class Drawing:
     storey: Storey
     shapes: tuple[Shape, ...]
     labels: tuple[Label, ...]
+    outlines_m: tuple[NDArray[np.float64], ...] = ()
+    """(n, 2) each: around all walls at their outer faces, past doors and windows."""
 
     @property
     def bounds_m(self) -> tuple[float, float, float, float]:
@@ -87,7 +89,8 @@ def draw(space: Space) -> Drawing:
         for room, region in space.rooms
         if not region.is_empty
     ]
-    return Drawing(space.storey, tuple(shapes), tuple(labels))
+    outlines = tuple(_rings(piece)[0] for piece in pieces_of(space.walls))
+    return Drawing(space.storey, tuple(shapes), tuple(labels), outlines)
 
 
 def _rings(shape: Polygon) -> tuple[NDArray[np.float64], ...]:

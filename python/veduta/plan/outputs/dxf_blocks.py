@@ -7,8 +7,10 @@ import math
 import numpy as np
 from ezdxf.document import Drawing as DxfDocument
 from numpy.typing import NDArray
+from shapely.geometry import Polygon
 
 from veduta.plan.drawing import Drawing, Shape
+from veduta.plan.terrace import axis_of
 
 DIMENSIONS = "A-ANNO-DIMS"
 """The layer of dimensions, as the National CAD Standard names it."""
@@ -18,6 +20,12 @@ _FIRST_M, _NEXT_M = 0.8, 0.6
 """How far the first row of dimensions is from the walls, and the next from it."""
 _APART_M = 0.05
 """Corners of outer walls that are nearer along a side are one."""
+_TURN_RAD = math.radians(20.0)
+"""What turns less is a bow's, whose pieces turn by 6 degrees."""
+_PLAIN_M = 0.005
+_JOG_M = 0.1
+"""Where an outline turns twice within this, it turns by both together."""
+_TAGS = ("ID", "TYPE", "WIDTH")
 _MM = 3
 
 
@@ -33,60 +41,85 @@ def place_block(document: DxfDocument, shape: Shape, offset_m: float, layer: str
         (float(start[0]) + offset_m, float(start[1])),
         dxfattribs={"layer": layer, "rotation": math.degrees(math.atan2(along[1], along[0]))},
     )
-    for tag, text in (("ID", shape.name), ("TYPE", shape.kind), ("WIDTH", f"{width:.3f}")):
+    for tag, text in zip(_TAGS, (shape.name, shape.kind, f"{width:.3f}"), strict=True):
         attribute = reference.add_attrib(tag, text, insert=reference.dxf.insert)
         attribute.is_invisible = True
 
 
 def add_dimensions(document: DxfDocument, drawing: Drawing, offset_m: float) -> None:
-    """Below and to the left of a storey: from corner to corner of its outer walls, and overall."""
-    outer = {name for wall in drawing.storey.walls if wall.outer for name in (wall.start, wall.end)}
-    corners = np.array([one.at_m for one in drawing.storey.junctions if one.id in outer])
-    rings = [ring for one in drawing.shapes if one.layer == "walls" for ring in one.rings]
-    if not len(corners) or not rings:
+    """Beside a storey, along its walls: from corner to corner of their outer faces, and overall."""
+    rings = [ring for ring in drawing.outlines_m if len(ring) > 2]
+    if not rings:
         return
     if DIMENSIONS not in document.layers:
         document.layers.add(DIMENSIONS, lineweight=18)
-    low = np.min([ring.min(axis=0) for ring in rings], axis=0)
-    high = np.max([ring.max(axis=0) for ring in rings], axis=0)
-    for axis in (0, 1):
-        inner = [at for at in _distinct(corners[:, axis]) if low[axis] < at < high[axis]]
-        chain = _distinct(np.array([low[axis], *inner[1:-1], high[axis]]))
-        _row(document, axis, chain, low, _FIRST_M, offset_m)
+    axis = axis_of(drawing.storey)
+    frame = np.array([[np.cos(axis), np.sin(axis)], [-np.sin(axis), np.cos(axis)]])
+    corners = np.concatenate([_corners(ring) for ring in rings]) @ frame.T
+    points = np.concatenate(rings) @ frame.T
+    low, high = points.min(axis=0), points.max(axis=0)
+    for row in (0, 1):
+        ends = [float(low[row]), float(high[row])]
+        chain = [ends[0], *_between(corners[:, row], *ends), ends[1]]
+        _row(document, frame, row, chain, low, _FIRST_M, offset_m)
         if len(chain) > 2:
-            _row(document, axis, [chain[0], chain[-1]], low, _FIRST_M + _NEXT_M, offset_m)
+            _row(document, frame, row, ends, low, _FIRST_M + _NEXT_M, offset_m)
+
+
+def _corners(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 2) where an outline turns: not along bows, nor where a wall is a little thicker."""
+    # Where walls meet in a bow, slits without a width may be left between them.
+    whole = Polygon(ring).buffer(_PLAIN_M, join_style="mitre")
+    whole = whole.buffer(-_PLAIN_M, join_style="mitre").simplify(_PLAIN_M)
+    plain = np.array(whole.exterior.coords)[:-1]
+    into = plain - np.roll(plain, 1, axis=0)
+    out = np.roll(into, -1, axis=0)
+    turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], (into * out).sum(axis=1))
+    far = np.hypot(*into.T) > _JOG_M
+    if not far.any():
+        return plain[:0]
+    # Turns that are near each other are one: the two of a jog cancel each other.
+    group = np.cumsum(np.roll(far, -int(far.argmax()))) - 1
+    turn, plain = (np.roll(one, -int(far.argmax()), axis=0) for one in (turn, plain))
+    firsts = np.flatnonzero(np.diff(group, prepend=-1))
+    return np.asarray(plain[firsts][np.abs(np.bincount(group, turn)) > _TURN_RAD])
 
 
 def _row(
     document: DxfDocument,
-    axis: int,
+    frame: NDArray[np.float64],
+    row: int,
     places: list[float],
     low: NDArray[np.float64],
     away_m: float,
     offset_m: float,
 ) -> None:
-    """Dimensions from each place to the next, along x (0) or y (1)."""
-    beside = float(low[1 - axis])
+    """Dimensions from each place to the next, along a row of the frame (2, 2): 0 or 1."""
+    along, across = frame[row], frame[1 - row]
+    beside = float(low[1 - row])
     for first, last in zip(places, places[1:], strict=False):
-        points = [(at, beside) if axis == 0 else (beside, at) for at in (first, last)]
-        base = (first, beside - away_m) if axis == 0 else (beside - away_m, first)
-        moved = [(x + offset_m, y) for x, y in (base, *points)]
+        points = [
+            first * along + (beside - away_m) * across,
+            first * along + beside * across,
+            last * along + beside * across,
+        ]
+        base, start, end = ((float(x) + offset_m, float(y)) for x, y in points)
         dimension = document.modelspace().add_linear_dim(
-            base=moved[0],
-            p1=moved[1],
-            p2=moved[2],
-            angle=90.0 * axis,
+            base=base,
+            p1=start,
+            p2=end,
+            angle=math.degrees(math.atan2(along[1], along[0])),
             dimstyle=_STYLE,
             dxfattribs={"layer": DIMENSIONS},
         )
         dimension.render()
 
 
-def _distinct(values: NDArray[np.float64]) -> list[float]:
-    """Sorted, each a little more than the one before."""
+def _between(values: NDArray[np.float64], low: float, high: float) -> list[float]:
+    """Sorted, each a little more than the one before, and as far within the ends."""
     found: list[float] = []
     for value in sorted(float(one) for one in values):
-        if not found or value - found[-1] > _APART_M:
+        if value - (found[-1] if found else low) > _APART_M and high - value > _APART_M:
             found.append(value)
     return found
 
@@ -111,6 +144,10 @@ def _block(
     block = document.blocks.new(name)
     for line in lines:
         block.add_lwpolyline(line.tolist(), dxfattribs={"layer": layer})
+    for tag in _TAGS:
+        asked = block.add_attdef(tag, insert=(0.0, 0.0), dxfattribs={"layer": layer})
+        asked.dxf.prompt = tag
+        asked.is_invisible = True
     return name
 
 
