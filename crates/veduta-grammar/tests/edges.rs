@@ -160,4 +160,9 @@ fn places_on_earth() {
     // The scope's origin is the corner in the north-west, 6 m north of the first.
     assert_eq!(found, ["503", "608", "9.50003", "47.00008"]);
     assert_eq!(said(&text, square(), &[]), ["3", "8", "0", "0"]);
+    // Older files write X and Y.
+    let text = "Lot --> t(3, 0, -2) print(getGeoCoord(X)) print(getGeoCoord(Y))";
+    let told = numbers(&[500.0, 600.0, 9.5, 47.0, 1e-5, 0.0, 0.0, 1e-5]);
+    assert_eq!(said(text, square(), &[(ON_EARTH, told)]), ["503", "608"]);
+    assert_eq!(said(text, square(), &[]), ["3", "8"]);
 }

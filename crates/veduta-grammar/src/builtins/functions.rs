@@ -50,7 +50,7 @@ const COORDINATE: &[Words] = &[
     &["pos", "orient"],
 ];
 const SPACE_OF_UV: &[Words] = &[NONE, &["uvSpace", "unitSpace"]];
-const GEOGRAPHIC: Words = &["x", "y", "lon", "lat"];
+const GEOGRAPHIC: Words = &["x", "y", "X", "Y", "lon", "lat"];
 const ASSET_SIZES: &[Words] = &[NONE, &["sx", "sy", "sz", "tx", "ty", "tz"]];
 const PARTS: &[Words] = &[NONE, &["g", "m"]];
 const AXES_OF_SCOPE: &[Words] = &[NONE, AXIS_SETS];

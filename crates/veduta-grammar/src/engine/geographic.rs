@@ -12,7 +12,7 @@ pub const ON_EARTH: &str = "/onEarth";
 
 impl Run<'_> {
     /// `getGeoCoord(x | y | lon | lat)`: of the scope's origin; x and y from the frame's origin where
-    /// nobody knows where that is, and 0 for longitude and latitude.
+    /// nobody knows where that is, and 0 for longitude and latitude. Older files have X and Y.
     pub(super) fn geographic(&self, args: &[Value], state: &State) -> Value {
         let [east, north, _] = to_place(state.form.scope.origin);
         let known = match self.options.attributes.get(ON_EARTH) {
@@ -21,8 +21,8 @@ impl Run<'_> {
         };
         let [x, y, longitude, latitude, by @ ..] = known.as_slice() else {
             return Value::Number(match args[0].to_string().as_str() {
-                "x" => east,
-                "y" => north,
+                "x" | "X" => east,
+                "y" | "Y" => north,
                 _ => 0.0,
             });
         };
@@ -31,8 +31,8 @@ impl Run<'_> {
             _ => 0.0,
         };
         Value::Number(match args[0].to_string().as_str() {
-            "x" => x + east,
-            "y" => y + north,
+            "x" | "X" => x + east,
+            "y" | "Y" => y + north,
             "lon" => longitude + grown(0),
             _ => latitude + grown(2),
         })
