@@ -110,8 +110,9 @@ Names = Annotated[
     tyro.conf.arg(
         metavar="ATTR=PROPERTY",
         help_behavior_hint="",
-        help="which property of the lots an attribute takes, such as height=hauteur; several with"
-        " commas. Usual names of OpenStreetMap and INSPIRE are known",
+        help="which property of the lots an attribute takes, such as height=hauteur, or"
+        " height=ROOF[ft] where bare numbers are feet; several with commas. Usual names of"
+        " OpenStreetMap and INSPIRE are known",
     ),
 ]
 Project = Annotated[

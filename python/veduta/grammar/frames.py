@@ -33,6 +33,7 @@ MAX_METRES = 1e8
 UNIT_TOLERANCE = 1e-9
 """Units that differ less from a metre are metres."""
 MAX_ZONE_WIDTH_DEG = 9.0
+FOOT_M = 0.3048
 TOGETHER = 4096
 """Outlines that are projected at once."""
 _ZONES = 61
@@ -111,6 +112,7 @@ class Survey:
         self.low: tuple[float, ...] = (math.inf,) * 3
         self.high: tuple[float, ...] = (-math.inf,) * 3
         self._sizes = array("d")
+        self._east, self._north = array("d"), array("d")
         self._zones = [_Bin() for _ in range(_ZONES)]
         self._bands = [_Bin() for _ in range(len(_BANDS) + 1)]
 
@@ -120,6 +122,8 @@ class Survey:
         low = (min(x), min(y), min(z))
         high = (max(x), max(y), max(z))
         self._sizes.append(max(high[0] - low[0], high[1] - low[1]))
+        self._east.append(low[0])
+        self._north.append(low[1])
         self.low = tuple(map(min, self.low, low))
         self.high = tuple(map(max, self.high, high))
         self.could_be_degrees &= max(-low[0], high[0]) <= 180.0 and max(-low[1], high[1]) <= 90.0
@@ -132,6 +136,11 @@ class Survey:
     def median_size(self) -> float:
         """Of the longer sides of the boxes around them."""
         return float(np.median(np.frombuffer(self._sizes)))
+
+    @property
+    def median_corner(self) -> NDArray[np.float64]:
+        """(2,) the medians of the lower corners of the boxes around them, in the file's units."""
+        return np.array([np.median(np.frombuffer(one)) for one in (self._east, self._north)])
 
     @property
     def middle(self) -> tuple[float, float]:
@@ -234,10 +243,12 @@ def _moved_frame(
     survey: Survey,
     outlines: Iterable[NDArray[np.float64]],
 ) -> Frame:
-    """The zone of UTM of a file that counts in feet, or in degrees about another datum."""
+    """The zone of UTM in which most lots lie, of a file that counts in feet, or in degrees about
+    another datum.
+    """
     epsg, unit_m = source
     ends = np.array([survey.low[:2], survey.high[:2]])
-    longitude, latitude = moved(ends.mean(axis=0)[None], epsg, LONGITUDE_LATITUDE)[0].tolist()
+    longitude, latitude = moved(survey.median_corner[None], epsg, LONGITUDE_LATITUDE)[0].tolist()
     if not (math.isfinite(longitude) and MIN_LATITUDE_DEG <= latitude <= MAX_LATITUDE_DEG):
         fault = f"says EPSG:{epsg}, but its coordinates lie beyond it"
         raise InputError(path, fault, "Name the CRS that they are in, with --crs.")
@@ -250,6 +261,8 @@ def _moved_frame(
         fault = f"says EPSG:{epsg}, but its coordinates lie beyond it"
         raise InputError(path, fault, "Name the CRS that they are in, with --crs.")
     note = f"EPSG:{epsg} does not count in metres: lots were moved to EPSG:{code} (WGS 84 / UTM)"
+    if abs(unit_m - FOOT_M) < 1e-3:
+        note += "; heights without a unit are taken for metres (--map height=NAME[ft]: for feet)"
     return Frame(f"EPSG:{code}", _origin(low), notes=(note,), source=source)
 
 

@@ -33,7 +33,7 @@ USUAL: dict[str, tuple[str, ...]] = {
 """By a name that rule files often have: keys of OpenStreetMap, INSPIRE and national data. They are
 known in any case, with umlauts, and with or without `_` and `-` (`Höhe`, `NumFloors`). Names that
 American cities use for heights in feet (`heightroof`, `bldg_height`) are not: a bare number is one
-of metres."""
+of metres, but where the call says its unit."""
 _SAME = (("levels", "floors", "nFloors", "storeys", "stories", "numFloors"), ("height", "Height"))
 """Names of rule files that mean the same."""
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
@@ -43,15 +43,26 @@ _UNITS_M = {
 }  # fmt: skip
 _MEASURE = re.compile(r"([-+]?\d+(?:[.,]\d+)?)\s*(metres?|meters?|feet|foot|cm|km|ft|m|'|\")?\s*$")
 _FEET_INCHES = re.compile(r"(\d+)\s*'\s*(\d+(?:\.\d+)?)\s*\"\s*$")
+_BARE = re.compile(r"[-+]?\d+(?:[.,]\d+)?$")
+_IN_UNIT = re.compile(r"(.+?)\s*\[([^\[\]]*)\]$")
+"""A property and the unit of its bare numbers: `heightroof[ft]`."""
 
 
 def read_names(words: Sequence[str]) -> dict[str, str]:
-    """`height=hauteur,levels=building:levels` as a property for each attribute."""
+    """`height=hauteur,levels=building:levels` as a property for each attribute.
+
+    A unit may stand behind a property, in which its bare numbers are: `height=heightroof[ft]`.
+    """
     names: dict[str, str] = {}
     for word in (part for text in words for part in text.split(",")):
         attribute, equals, given = (part.strip() for part in word.partition("="))
         if not equals or not attribute or not given:
             raise InputError(f"--map {word}", "is not ATTRIBUTE=PROPERTY", "Write height=hauteur.")
+        unit = _IN_UNIT.match(given)
+        if unit is not None and _metres_of(unit[2]) is None:
+            known = ", ".join(name for name in _UNITS_M if name.isalpha())
+            fault = f"names no known unit, {unit[2]!r}"
+            raise InputError(f"--map {word}", fault, f"Name one: {known}.")
         names[attribute] = given
     return names
 
@@ -65,7 +76,7 @@ def property_of(
     that are usual in open data.
     """
     if name in given:
-        return properties.get(given[name])
+        return _given_property(given[name], properties)
     if name in properties:
         return properties[name]
     alike = next((group for group in _SAME if name in group), (name,))
@@ -80,6 +91,25 @@ def property_of(
         if value is not None and _folded(key) in usual_names
     )
     return next(found, None) if usual_names else None
+
+
+def _given_property(given: str, properties: Mapping[str, Attribute]) -> Attribute | None:
+    """The property that a call names, in metres where the call says the unit of its numbers."""
+    unit = _IN_UNIT.match(given)
+    if given in properties or unit is None:
+        return properties.get(given)
+    value, metres = properties.get(unit[1]), _metres_of(unit[2])
+    if isinstance(value, str) and _BARE.match(value.strip()):
+        value = float(value.replace(",", "."))
+    if metres is None or isinstance(value, (bool, str)) or value is None:
+        return value
+    return value * metres
+
+
+def _metres_of(unit: str) -> float | None:
+    """How many metres a unit is, in any case and number; None where it is none."""
+    name = unit.strip().casefold()
+    return _UNITS_M.get(name, _UNITS_M.get(name.rstrip("s"))) if name else None
 
 
 @functools.lru_cache(maxsize=4096)

@@ -6,7 +6,8 @@ in memory remains where each stands, and which names are taken.
 
 Read: GeoJSON (`geojson_lots`), CityJSON (`city_lots`, `city_stream`), GeoPackage (`package_lots`),
 OBJ (`object_lots`), and by GDAL Shapefile, OpenStreetMap, KML and others (`vector_lots`). Where
-there are roads, each lot begins at its front (`roads`, `streets`).
+there are roads, each lot begins at its front (`roads`, `streets`); without any, one whose first
+edge stands against another lot begins where none does (`free_fronts`).
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ from veduta.grammar.frames import (
     height_origin,
     named_crs,
 )
+from veduta.grammar.free_fronts import MOST, FreeFronts, free_fronts
 from veduta.grammar.geojson_lots import feature_outlines, features_of
 from veduta.grammar.json_stream import refuse_constant
 from veduta.grammar.lot import (
@@ -127,15 +129,17 @@ def read_lots(
             raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
         frame = find_frame(path, found.epsg, survey, lambda: (_first_ring(one) for one in spool))
         terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
-        stand = _Stand(frame, terrain, options.ground, roads_among(options.roads, found, frame))
-        lots = _placed(path, (_outline(record) for record in spool), stand, found, folder)
+        roads = roads_among(options.roads, found, frame)
+        outlines = [] if len(roads) or len(spool) > MOST else map(_outline, spool)
+        free = free_fronts(outlines, frame)
+        stand = _Stand(frame, terrain, options.ground, roads, free)
+        lots = _placed(path, map(_outline, spool), stand, found, folder)
         if terrain is not None:
             frame = _from_lowest(frame, lots)
         if len(spool) >= TELL_EACH:
             say(f"{path}: {len(lots):,} lots")
-    notes = (*found.all_notes(), *frame.notes)
-    roads = stand.roads.lines
-    return Lots(lots, frame.crs, frame.origin_m, found.failures, notes, roads=roads)
+    notes = (*found.all_notes(), *frame.notes, *free.notes())
+    return Lots(lots, frame.crs, frame.origin_m, found.failures, notes, roads=roads.lines)
 
 
 def require_lots(path: Path | None, options: LotOptions | None) -> None:
@@ -213,6 +217,7 @@ class _Stand:
     terrain: Terrain | None
     ground: Ground
     roads: Roads
+    free: FreeFronts
 
     def of(self, outline: Outline, own_id: Callable[[str], str]) -> Lot:
         """The lot, about its own anchor; RingFault or NoGroundError where it cannot be used."""
@@ -231,6 +236,8 @@ class _Stand:
             widths = [*np.roll(front.widths_m, -front.edge).tolist()]
             widths += [0.0] * sum(len(ring) for ring in flat[1:])
             told = {STREET: ";".join(f"{width:g}" for width in widths)}
+        elif STREET not in attributes and (edge := self.free.edge_of(flat[0] + low[:2])):
+            flat = [np.roll(flat[0], -edge, axis=0), *flat[1:]]
         attributes = edges_of_ring(attributes, [ring[:, :2] - low[:2] for ring in rings], flat)
         attributes = (front.attributes() if front else {}) | told | attributes
         return Lot(

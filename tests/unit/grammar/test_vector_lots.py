@@ -188,6 +188,20 @@ def test_names_of_the_call_come_before_those_of_the_file_and_the_usual_ones() ->
         read_names(["height"])
 
 
+def test_the_call_says_in_which_unit_bare_numbers_are() -> None:
+    names = read_names(["height=HEIGHTROOF[ft], levels=n"])
+    assert names == {"height": "HEIGHTROOF[ft]", "levels": "n"}
+    assert property_of("height", {"HEIGHTROOF": 100.0}, names) == pytest.approx(30.48)
+    assert property_of("height", {"HEIGHTROOF": "100"}, names) == pytest.approx(30.48)
+    assert property_of("height", {"HEIGHTROOF": "12 m"}, names) == "12 m", (
+        "a unit of its own counts"
+    )
+    assert property_of("height", {"HEIGHTROOF": None}, names) is None
+    assert property_of("height", {"top [cm]": 7.0}, {"height": "top [cm]"}) == 7.0, "its own name"
+    with pytest.raises(InputError, match="'cubits'"):
+        read_names(["height=top[cubits]"])
+
+
 def test_usual_names_are_known_in_any_case_and_with_umlauts() -> None:
     assert property_of("height", {"Höhe": "14,5 m"}, {}) == "14,5 m"
     assert property_of("height", {"Ho\u0308he": 31.5}, {}) == 31.5
@@ -221,6 +235,18 @@ def test_systems_in_feet_and_other_degrees_become_metres(
     east, north = lots.origin_m[:2]
     assert abs(east - 585_000) < 3000
     assert abs(north - 4_510_000) < 8000
+
+
+def test_one_lot_far_off_does_not_move_the_zone_of_a_file_in_feet(tmp_path: Path) -> None:
+    """Three at 72.3 degrees west, in the zone that ends at 72, and one 110 km to the east."""
+    east = [1_456_000.0, 1_456_100.0, 1_456_200.0, 1_816_000.0]
+    lots = [shapely.to_wkb(shapely.box(x, 210_000.0, x + 40, 210_030.0)) for x in east]
+    geometry, none = np.array(lots, dtype=object), np.array([], dtype=str)
+    path = tmp_path / "lots.fgb"
+    pyogrio.raw.write(path, geometry, [], none, geometry_type="Polygon", crs="EPSG:2263")
+    found = read_lots(path)
+    assert found.crs == "EPSG:32618", "the middle of the box around all lies in the zone 19"
+    assert any("[ft]" in note for note in found.notes)
 
 
 def test_lines_of_a_kml_file_say_where_fronts_are(tmp_path: Path) -> None:
