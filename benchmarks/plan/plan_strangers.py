@@ -7,8 +7,9 @@ it was run on any. `brochure` and `measured` are a page of a letting agent and a
 from what such sheets look like by somebody who had not read the reader's code, and so is `working`,
 a German working drawing of a flat in a block with chains of sizes. `japanese` and `labelled` were
 drawn by somebody who had read how openings are told, before the reader was run on any: a flat with
-doors of panels, and sheets whose windows words tell. Each is read to its document. A
-run over all seeds of all families is kept as `plan-strangers`.
+doors of panels, and sheets whose windows words tell. `ranch` and `gallery` are pages of a
+builder's catalogue, drawn before anything of the reader's code was read. Each is read to its
+document. A run over all seeds of all families is kept as `plan-strangers`.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from veduta.synthetic.plans.canvas import Image as Picture
 from veduta.synthetic.plans.japanese import japanese_flat
 from veduta.synthetic.plans.labelled import labelled_sheet
 from veduta.synthetic.plans.measured import measured_sheet
+from veduta.synthetic.plans.stock_plan import stock_plan
 from veduta.synthetic.plans.strangers import strangers_sheet
 from veduta.synthetic.plans.truth_file import SheetTruth
 from veduta.synthetic.plans.working_drawing import working_drawing
@@ -47,6 +49,8 @@ FAMILIES: Mapping[str, Callable[[int], tuple[Picture, list[SheetTruth]]]] = {
     "working": working_drawing,
     "japanese": japanese_flat,
     "labelled": labelled_sheet,
+    "ranch": lambda seed: stock_plan(seed, "ranch"),
+    "gallery": lambda seed: stock_plan(seed, "gallery"),
 }
 SEEDS = range(31_000, 31_012)
 TOLERANCE = 0.01
@@ -66,6 +70,8 @@ NOTES = (
     "japanese once more, after leaves and lines of furniture were told from walls on 100 to 107:"
     " rooms 0.77 on 31000 to 31003; 1.00 on 31004 to 31007, which nobody had seen (0.95 before);"
     " of all eight 0.89 (0.83).",
+    "ranch and gallery at the first try on 31000 to 31003: rooms 0.86 and 0.84, openings 0.74 and"
+    " 0.85, wall IoU 0.88 and 0.84, scale 1.00.",
 )
 
 

@@ -15,6 +15,7 @@ from veduta.synthetic.plans.hands import HANDS, hand_drawn
 from veduta.synthetic.plans.japanese import japanese_flat
 from veduta.synthetic.plans.labelled import labelled_sheet
 from veduta.synthetic.plans.measured import measured_sheet
+from veduta.synthetic.plans.stock_plan import stock_plan
 from veduta.synthetic.plans.truth_file import SheetTruth
 from veduta.synthetic.plans.working_drawing import working_drawing
 
@@ -27,7 +28,15 @@ def any_hand(seed: int) -> tuple[Image, list[SheetTruth]]:
     return hand_drawn(seed, HANDS[seed % len(HANDS)])
 
 
-@pytest.mark.parametrize("make", [*MAKERS, any_hand, japanese_flat, labelled_sheet])
+def any_floor(seed: int) -> tuple[Image, list[SheetTruth]]:
+    """Of a builder's catalogue, a house on one floor and an upper floor in turn."""
+    return stock_plan(seed, ("ranch", "gallery")[seed % 2])
+
+
+DRAWN = [*MAKERS, any_hand, any_floor, japanese_flat, labelled_sheet]
+
+
+@pytest.mark.parametrize("make", DRAWN)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_openings_lie_in_their_walls_clear_of_each_other(make: Make, seed: int) -> None:
     for truth in make(seed)[1]:
@@ -41,7 +50,7 @@ def test_openings_lie_in_their_walls_clear_of_each_other(make: Make, seed: int) 
             assert flat == sorted(flat)
 
 
-@pytest.mark.parametrize("make", [*MAKERS, any_hand, japanese_flat, labelled_sheet])
+@pytest.mark.parametrize("make", DRAWN)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_every_room_is_reached(make: Make, seed: int) -> None:
     for truth in make(seed)[1]:
@@ -104,3 +113,24 @@ def test_hands_draw_walls_darker_than_rooms(hand: str) -> None:
     solid = [_mean(grey, truth, line.interpolate(0.5, normalized=True), reach) for line in lines]
     rooms = [Polygon(one.outline_m).representative_point() for one in storey.rooms]
     assert np.median(solid) < np.median([_mean(grey, truth, at, 0.05) for at in rooms]) - 40.0
+
+
+@pytest.mark.parametrize("seed", [2, 4])
+def test_what_is_open_to_below_is_no_room_and_has_no_wall_at_its_railing(seed: int) -> None:
+    _, (truth,) = stock_plan(seed, "gallery")
+    storey = truth.storey
+    landing = next(room for room in storey.rooms if room.use == "hall")
+    assert "r1" not in {room.id for room in storey.rooms}
+    assert not [one for one in storey.walls if {one.left, one.right} == {landing.id, "r1"}]
+    # The landing's edge is where the railing is drawn, and beyond it lies no room.
+    edge = Polygon(landing.outline_m)
+    beyond = Point(edge.centroid.x, edge.bounds[3] + 0.5)
+    assert not any(Polygon(room.outline_m).contains(beyond) for room in storey.rooms)
+
+
+def test_tubs_of_a_catalogue_fill_their_alcoves() -> None:
+    _, (truth,) = stock_plan(1, "ranch")
+    tubs = [one.box_m for one in truth.fittings or () if one.kind == "bathtub"]
+    baths = [Polygon(room.outline_m).bounds for room in truth.storey.rooms if room.id == "r4"]
+    assert any(np.allclose((tub[0], tub[2]), (at[0], at[2])) for tub in tubs for at in baths)
+    assert len(tubs) == 2
