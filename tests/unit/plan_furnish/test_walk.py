@@ -90,3 +90,19 @@ def test_what_stands_on_a_rug_leaves_the_way_from_door_to_door(
     variant = Variant(0.8, fixed([rug, table]), free=True)
     assert place(variant, layout, np.random.default_rng(0), 1)
     assert [one.entry.type for one in layout.stood] == stand
+
+
+def test_one_comes_past_a_leaf_that_stands_open() -> None:
+    """The leaf stands 0.9 m into the room; a thing ahead of its tip shuts one side of it off."""
+    room, doors = box(0.0, 0.0, 4.0, 4.0), np.array([[0.6, 0.3], [3.5, 3.5]])
+    leaf = box(1.0, 0.0, 1.06, 0.9)
+    thing = box(0.0, 1.3, 1.4, 1.6)
+    ways = Ways(room, doors, leaf)
+    assert ways.main_region(ways.grid.covered(thing)) is None
+    assert ways.main_region(ways.grid.covered(box(0.0, 1.7, 1.4, 2.0))) is not None
+    # Without the leaf one goes where it stands.
+    ways = Ways(room, doors)
+    assert ways.main_region(ways.grid.covered(thing)) is not None
+    # Nothing is asked that the empty room has not.
+    shut = Ways(room, doors, box(1.0, 0.0, 1.06, 4.0))
+    assert shut.main_region(np.zeros(shut.grid.floor.shape, dtype=np.bool_)) is not None

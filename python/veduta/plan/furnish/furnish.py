@@ -103,7 +103,7 @@ def furnish_room(
     name = zlib.crc32(f"{storey} {space.room.id}".encode())
     seeds = [choice.seed, name]
     wishes = list(_wishes(space, choice, np.random.default_rng(seeds)))
-    ways = Ways(space.floor, space.doors)
+    ways = Ways(space.floor, space.doors, space.leaves)
     begun = Layout(space, ways)
     own = [one for one in fittings if one.room == space.room.id]
     elsewhere = place_drawn(own, begun, choice, DRAWN_GROUP)

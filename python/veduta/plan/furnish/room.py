@@ -19,12 +19,14 @@ from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 
 from veduta.plan.document import Room, Stairs
-from veduta.plan.house.hole import ENDS, Hole
+from veduta.plan.house.hole import ENDS, End, Hole
 from veduta.plan.house.sliding import SLIDING
 from veduta.plan.house.space import Space, pieces_of
 
 APPROACH_M = 0.65
 """What stays free before a door."""
+LEAF_M = 0.06
+"""How thick a leaf stands in the way, no less than a cell of the grid on which one walks."""
 WINDOW_M = 0.35
 """How near things that are higher than its sill come to a window."""
 STEP_M = 0.8
@@ -82,7 +84,8 @@ class RoomSpace:
     """A room with all that limits what stands in it.
 
     region: the floor as it is; `floor` has straight walls made plain. doors: (n, 2) points before
-    its doors. blocked: what doors, their leaves and stairs need.
+    its doors. blocked: what doors, their leaves and stairs need. leaves: where those stand that
+    open into the room: furniture that one would only reach through them is out of reach.
     """
 
     room: Room
@@ -93,6 +96,7 @@ class RoomSpace:
     blocked: BaseGeometry
     windows: tuple[Window, ...]
     height_m: float
+    leaves: BaseGeometry
 
     @cached_property
     def inside(self) -> Polygon:
@@ -149,6 +153,7 @@ def _room_space(
         for hole, sign in ways
         if hole.opening.kind == "window"
     )
+    leaves = unary_union([leaf for hole, sign in doors for leaf in _leaves(hole, sign)])
     blocked = unary_union([*zones, *stairs]).intersection(floor.buffer(0.05))
     shapely.prepare(blocked)
     walls = space.walls.buffer(1e-3)
@@ -158,7 +163,7 @@ def _room_space(
         for ring in (floor.exterior, *floor.interiors)
         for one in _stretches(np.array(ring.coords)[:-1], walls, middles)
     ]
-    return RoomSpace(room, *floors, tuple(stretches), points, blocked, windows, height_m)
+    return RoomSpace(room, *floors, tuple(stretches), points, blocked, windows, height_m, leaves)
 
 
 def _sides(hole: Hole, room: Room) -> list[float]:
@@ -194,12 +199,41 @@ def _door_zones(hole: Hole, sign: float) -> list[Polygon]:
     if hole.type in SLIDING:
         # The leaf runs along the wall.
         return [*zones, _front_of(hole, sign, 0.1, hole.width_m)]
-    swings = -1.0 if hole.swing == "right" else 1.0
-    if hole.swing != "both" and swings != sign:
+    if not _opens_to(hole, sign):
         return zones
-    both = hole.hinge == "both" or hole.type in {"double", "french", "folding"}
-    radius = (hole.width_m / 2.0 if both else hole.width_m) + 0.03
-    return zones + [hole.sweep(end, sign, radius) for end in ENDS if both or end == hole.hinge]
+    radius = (hole.width_m / 2.0 if _has_two(hole) else hole.width_m) + 0.03
+    return zones + [hole.sweep(end, sign, radius) for end in _hung_at(hole)]
+
+
+def _opens_to(hole: Hole, sign: float) -> bool:
+    """Whether a leaf comes into the room on this side."""
+    return hole.swing == "both" or (-1.0 if hole.swing == "right" else 1.0) == sign
+
+
+def _has_two(hole: Hole) -> bool:
+    """Whether half of a door hangs at either end."""
+    return hole.hinge == "both" or hole.type in {"double", "french", "folding"}
+
+
+def _hung_at(hole: Hole) -> list[End]:
+    return [end for end in ENDS if _has_two(hole) or end == hole.hinge]
+
+
+def _leaves(hole: Hole, sign: float) -> list[Polygon]:
+    """Where the leaves of a door stand when they are open to this side; none of what slides."""
+    still = hole.opening.kind == "gap" or hole.type in {"plain", "garage", "folding", *SLIDING}
+    if still or not _opens_to(hole, sign):
+        return []
+    size = hole.width_m / 2.0 if _has_two(hole) else hole.width_m
+    found = []
+    for end in _hung_at(hole):
+        at_start = end == "start"
+        hinge = hole.start + (0.0 if at_start else hole.width_m) * hole.along
+        hinge = hinge + sign * hole.line.half_m * hole.leftward
+        tip = hinge + sign * size * hole.leftward
+        thick = (1.0 if at_start else -1.0) * LEAF_M * hole.along
+        found.append(Polygon([hinge, tip, tip + thick, hinge + thick]))
+    return found
 
 
 def _flight(stairs: Stairs, *, comes_up: bool) -> BaseGeometry:

@@ -81,11 +81,20 @@ class WalkGrid:
 
 
 class Ways:
-    """The doors of a room, and whether things still let one go from each to each."""
+    """The doors of a room, and whether things still let one go from each to each.
 
-    def __init__(self, floor: BaseGeometry, doors: NDArray[np.float64]) -> None:
+    `leaves` stand open in the room: where one can go around them, one still can.
+    """
+
+    def __init__(
+        self, floor: BaseGeometry, doors: NDArray[np.float64], leaves: BaseGeometry | None = None
+    ) -> None:
         self.grid = WalkGrid(floor)
         self._doors = doors
+        self._leaves: Mask | None = None
+        if leaves is not None and not leaves.is_empty:
+            self._leaves = self.grid.covered(leaves)
+            self._around = self.grid.numbers_at(self.grid.regions(self._leaves), doors)
         empty = self.grid.regions()
         self._before = self.grid.numbers_at(empty, doors)
         wide = self.grid.regions(radius_m=WIDE_M)
@@ -105,10 +114,8 @@ class Ways:
         if not self._is_open:
             return self.grid.floor & ~things
         after = self.grid.numbers_at(regions, self._doors)
-        met: dict[int, int] = {}
-        for old, new in zip(self._before, after, strict=True):
-            if old and (not new or met.setdefault(old, new) != new):
-                return None
+        if not _still_joined(self._before, after) or not self._around_leaves(things):
+            return None
         sizes = np.bincount(regions.ravel())
         sizes[0] = 0
         reached = {number for old, number in zip(self._before, after, strict=True) if old}
@@ -116,6 +123,22 @@ class Ways:
         if sizes[main] < self._least or not main:
             return None
         return np.asarray(regions == main)
+
+    def _around_leaves(self, things: Mask) -> bool:
+        """Whether one comes from door to door past the leaves, where one could without things."""
+        if self._leaves is None:
+            return True
+        regions = self.grid.regions(things | self._leaves)
+        return _still_joined(self._around, self.grid.numbers_at(regions, self._doors))
+
+
+def _still_joined(before: list[int], after: list[int]) -> bool:
+    """Whether doors that lay in one region, by their numbers, still do; 0 is no region."""
+    met: dict[int, int] = {}
+    return not any(
+        old and (not new or met.setdefault(old, new) != new)
+        for old, new in zip(before, after, strict=True)
+    )
 
 
 def _same_parts(first: list[int], second: list[int]) -> bool:
