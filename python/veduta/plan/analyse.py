@@ -18,6 +18,7 @@ from veduta.plan.document import PlanDocument, Scale, Sheet, Storey, Text
 from veduta.plan.doubts import position_notes
 from veduta.plan.drawn import Cleaned, Drawn, DrawnRoom
 from veduta.plan.fittings.find import find_fittings, fitting_rooms
+from veduta.plan.garage import with_garage_doors
 from veduta.plan.load import LARGEST_M, size_of
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
@@ -172,6 +173,7 @@ def _storey(
     named = _names(drawn, metres_per_px)
     written = {room: one.use for room, one in named.items() if one.origin == "measured"}
     drawn = replace(drawn, fittings=fitting_rooms(drawn.fittings, written))
+    drawn = with_garage_doors(drawn, written, metres_per_px)
     storey = compose_storey(
         drawn,
         scale,

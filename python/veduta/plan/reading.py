@@ -28,8 +28,16 @@ from veduta.plan.openings.evidence import Views
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.jambs import with_jambed
 from veduta.plan.openings.labelled import Labels, said_window, window_labels, with_said
-from veduta.plan.openings.leaf_pieces import free_leaves, hung_leaves, leaf_pieces, unproven
+from veduta.plan.openings.leaf_pieces import (
+    free_leaves,
+    hung_leaves,
+    leaf_pieces,
+    slid,
+    slim_panels,
+    unproven,
+)
 from veduta.plan.openings.outdoors import leads_outdoors
+from veduta.plan.openings.pockets import with_pockets
 from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
@@ -266,12 +274,15 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
         door_px = usual_door(judged) or USUAL_DOOR * found.thin_px
         leaves |= free_leaves(found.pieces, found.thin_px, door_px)
         leaves |= hung_leaves(found.pieces, judged, found.thin_px)
+        leaves |= _panels(found, door_px, views, said)
     if leaves:
         found = without_pieces(found, leaves)
         judged = judge_gaps(found, views, said)
     if known is None:
         judged = [*judged, *panels_beyond(found, views)]
     axes = axes_of([*found.pieces, *found.curved], judged)
+    if known is None:
+        axes = with_pockets(axes, sheet, usual_door(judged) or USUAL_DOOR * found.thin_px)
     if known is None and way.drawing == "filled":
         axes = unproven(axes, found.thin_px)
     # What a vector file says of its openings goes before what its picture looks like; in walls that
@@ -287,6 +298,16 @@ def _read_found(sheeted: Sheeted, found: Found, way: Way, thin: bool) -> Drawn:
     axes = with_said(settled(axes, found.thin_px, sky), said, sheet, sky)
     laid = known.settle(axes) if known else axes
     return drawn_from(cleaned, found, laid, texts, whole.notes)
+
+
+def _panels(found: Found, door_px: float, views: Views, said: Labels) -> set[int]:
+    """Indices of pieces that are panels of doors: without them such doors are seen."""
+    slim = sorted(slim_panels(found.pieces, found.thin_px, door_px))
+    if not slim:
+        return set()
+    judged = judge_gaps(without_pieces(found, slim), views, said)
+    seen = slid([found.pieces[one] for one in slim], judged)
+    return {one for one, is_panel in zip(slim, seen, strict=True) if is_panel}
 
 
 def without_pieces(found: Found, gone: Collection[int]) -> Found:

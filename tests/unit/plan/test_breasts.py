@@ -106,3 +106,12 @@ def test_a_paler_stretch_of_a_rimmed_wall_is_wall() -> None:
     assert changed_stretches(own, usual, 30.0) == []
     own[4:9, 60:140] = 0.0  # a pane between both faces
     assert changed_stretches(own, usual, 30.0) == [(60, 140)]
+
+
+def test_a_stub_as_broad_as_thin_walls_is_no_pier_however_short() -> None:
+    mask = np.zeros((400, 300), np.bool_)
+    mask[20:380, 50:58] = mask[20:28, 50:280] = mask[372:380, 50:280] = True
+    mask[190:199, 58:66] = True
+    found, count = without_breasts(mask, find_tracks(mask), Thickness(6.0, 8.0))
+    assert count == 0
+    assert found[195, 64]

@@ -347,3 +347,18 @@ def test_a_frame_of_a_broad_pen_is_no_thin_wall() -> None:
     assert found is not None
     assert found.most_px == 32
     assert found.least_px > 8
+
+
+@pytest.mark.parametrize("drain", [False, True])
+def test_what_lies_around_the_basin_of_a_tub_is_no_wall(drain: bool) -> None:
+    ink, _ = _house()
+    # From wall to wall in a corner: its rim is as broad as the inner wall.
+    _box(ink, 72, 546, 420, 628)
+    _box(ink, 88, 560, 404, 614)
+    if drain:
+        _box(ink, 110, 580, 124, 594)
+    cells = find_cells(ink, LINE)
+    walls = wall_cells(cells)
+    rim = int(cells.labels[553, 246])
+    assert not walls[rim]
+    assert walls[int(cells.labels[300, 62])]

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +63,13 @@ BAR, BAR_SIDE = 0.1, 0.03
 """Where the lines of a window run into the one that a wall is drawn as, this is so much darker
 beside both faces together, in the mean, and beside each, as a part of its darkest row."""
 
+OVERLAP, LIKE = 0.35, 1.3
+"""Two panels overlap by at most this part of one, which is as long as the other by this factor."""
+
+THICKER, DRAWN_ON, BARE = (1.2, 2.2), 0.85, 0.05
+"""A wall goes on thicker by such factors, its faces are drawn along this part of it, and at most so
+much of what lies between them is ink."""
+
 MOST_WINDOW = 0.8
 """Less than this part of a wall that is a single line is window."""
 
@@ -80,6 +88,8 @@ def with_unbroken(
     done = []
     for number, axis in enumerate(axes):
         spans = _spans(axis, walls, number, thin_px)
+        both = [one for span in _pairs(spans) if (one := _opening(axis, span, sheet, thin_px, sky))]
+        axis = replace(axis, openings=(*axis.openings, *both))
         more = [one for span in spans if (one := _opening(axis, span, sheet, thin_px, sky))]
         done.append(replace(axis, openings=(*axis.openings, *more)))
     return done
@@ -102,6 +112,17 @@ def _spans(axis: Axis, walls: _Walls, number: int, thin_px: float) -> list[tuple
         return spans
     doubled = doubled_stretches(_wide_strip(axis, walls.sheet, thin_px), least_px)
     return spans if _mostly(doubled, axis.line.length_px, LEAST_DOUBLED) else []
+
+
+def _pairs(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Two stretches beside each other, as long as each other: panels that overlap a little."""
+    found = []
+    for first, second in pairwise(spans):
+        sizes = first[1] - first[0], second[1] - second[0]
+        near = second[0] - first[1] <= OVERLAP * min(sizes)
+        if near and max(sizes) <= LIKE * min(sizes):
+            found.append((first[0], second[1]))
+    return found
 
 
 def _wide_strip(axis: Axis, sheet: Sheet, thin_px: float) -> Strip:
@@ -249,9 +270,31 @@ def _opening(
     gap = Gap.along(line, low, high)
     outer = leads_out(line, (low, high), sky)
     seen = judge(gap, look_at(gap, sheet), thin_px, outer)
+    if seen is not None and seen.kind == "window" and is_thicker(axis, (low, high), sheet):
+        return None
     if seen is None or seen.kind == "gap" or not (outer or seen.type == "sliding"):
         return None
     return OnAxis(seen, low, high, along=True)
+
+
+def is_thicker(axis: Axis, span: tuple[float, float], sheet: Sheet) -> bool:
+    """Whether the wall goes on there and is thicker: two lines alone, farther apart than its own.
+
+    An inner wall and an outer one may lie in one line.
+    """
+    part = axis.line.part(*span)
+    reach = THICKER[1] * axis.line.thickness_px
+    strip = cut_strip(part.start, part.end, reach, sheet, 0.0, part.bulge)
+    trim = slice(SMOOTH_PX, -SMOOTH_PX)
+    dark = strip.faint[:, trim].mean(axis=1) >= DRAWN_ON
+    dark &= np.abs(strip.steps) <= strip.half_px
+    starts, ends = runs(dark)
+    if len(starts) != 2:
+        return False
+    first, second = (float(strip.steps[a:b].mean()) for a, b in zip(starts, ends, strict=True))
+    between = strip.faint[(strip.steps > first + 1.5) & (strip.steps < second - 1.5), trim]
+    wide = (second - first) >= THICKER[0] * axis.line.thickness_px
+    return bool(first < 0.0 < second and wide and float(between.mean()) < BARE)
 
 
 def profile(strip: Strip, middle_px: float = 0.0) -> NDArray[np.float64]:

@@ -89,6 +89,8 @@ def _drawn(
             kind: OpeningType = "plain" if not seen.lines else "unknown"
             return Judged(gap, "door", kind, "none", "none", 0.6)
         return Judged(gap, "window", window_type(seen), "none", "none", _window_score(seen))
+    if seen.beam and not outer:
+        return Judged(gap, "gap", "plain", "none", "none", 0.7)
     stub_px = float(np.hypot(*(gap.far - gap.end)))
     to_side = gap.to_side and stub_px < STUB * gap.thickness_px
     limit = PLAIN_TO_SIDE if to_side else widest_plain

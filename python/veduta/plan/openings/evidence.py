@@ -19,6 +19,7 @@ from veduta.plan.openings.leaves import (
 )
 from veduta.plan.openings.lines import (
     AT_FACE,
+    dashed_faces,
     full_lines,
     leaf_lines,
     panel_step,
@@ -40,7 +41,8 @@ class Evidence:
     `empty`: the share without ink; `step`: panels side by side (see `panel_step`); `pocket`: the
     way through beside a pocket; arcs, chords and folds best first; `leaf_px`: how thick the leaf
     of the best arc is drawn, 0 without one; `leaf_lines`: a line along each half of it, which lie
-    beside each other; `bare`: leaves without a trace, looked for where nothing lies in the gap.
+    beside each other; `bare`: leaves without a trace, looked for where nothing lies in the gap;
+    `beam`: both faces go on in dashes.
     """
 
     lines: tuple[float, ...]
@@ -57,6 +59,7 @@ class Evidence:
     bare: tuple[Arc, ...] = ()
     panel: float = 0.0
     meets: bool = False
+    beam: bool = False
 
     @property
     def inner(self) -> tuple[float, ...]:
@@ -95,6 +98,7 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
         bare=find_bare(gap, sheet) if free else (),
         panel=find_panel(gap, sheet) if free else 0.0,
         meets=bool(lines) and meets(strip),
+        beam=free and dashed_faces(strip),
     )
 
 

@@ -102,6 +102,50 @@ def hung_leaves(pieces: Sequence[Piece], judged: Sequence[Judged], thin_px: floa
     return found
 
 
+def slim_panels(pieces: Sequence[Piece], thin_px: float, door_px: float) -> set[int]:
+    """Indices of pieces that go on from the end of a wall in its line, and are much thinner.
+
+    One of two panels that slide past each other looks so: the other is thinner still.
+    """
+    walls = [one for one in pieces if one.thickness_px >= SLIM * thin_px and not one.bulge]
+    found = set()
+    for index, piece in enumerate(pieces):
+        sized = SHORTER * door_px <= piece.length_px <= LONGER * door_px
+        if piece.bulge or not sized or piece.thickness_px > SLIM * thin_px:
+            continue
+        if any(_goes_on_from(end, piece, wall) for wall in walls for end in (wall.start, wall.end)):
+            found.add(index)
+    return found
+
+
+def _goes_on_from(end: NDArray[np.float64], piece: Piece, wall: Piece) -> bool:
+    """Whether a piece begins at this end of a wall and lies within the wall's faces, ahead."""
+    near = min(float(np.hypot(*(one - end))) for one in (piece.start, piece.end))
+    if near > HANGS * wall.thickness_px:
+        return False
+    way = wall.direction
+    beside = [abs(float((one - end) @ np.array([-way[1], way[0]]))) for one in
+              (piece.start, piece.end)]  # fmt: skip
+    middle = (piece.start + piece.end) / 2.0 - (wall.start + wall.end) / 2.0
+    ahead = abs(float(middle @ way)) > wall.length_px / 2.0
+    return ahead and max(beside) <= wall.thickness_px / 2.0
+
+
+def slid(gone: Sequence[Piece], judged: Sequence[Judged]) -> list[bool]:
+    """Of pieces that were taken out: whether a door of panels was found where each stood."""
+    doors = [one.gap for one in judged if one.kind == "door" and one.type == "sliding"]
+    return [any(_within(piece, gap) for gap in doors) for piece in gone]
+
+
+def _within(piece: Piece, gap: Gap) -> bool:
+    run = gap.end - gap.start
+    size = float(np.hypot(*run))
+    away = (piece.start + piece.end) / 2.0 - gap.start
+    along = float(away @ run) / max(size, 1e-9)
+    beside = abs(float(away[0] * run[1] - away[1] * run[0])) / max(size, 1e-9)
+    return 0.0 < along < size and beside <= gap.thickness_px
+
+
 def _is_doubtful(one: Judged) -> bool:
     """A way through whose kind of leaf nothing tells."""
     return one.kind != "window" and one.type in ("plain", "unknown")

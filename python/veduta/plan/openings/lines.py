@@ -32,6 +32,10 @@ LEAST_BREAKS = 2
 LEAST_DASH = 0.1
 """Ink of the dashes above the paper."""
 
+BEAM, BEAM_DASHES, ALIKE, BETWEEN = (0.3, 0.8), 5, 0.4, 0.1
+"""Dashes along a face cover so much of it, are so many, and differ in length by such a part; of
+what lies between both faces at most so much is ink."""
+
 LEAST_WAY = 0.35
 """The way beside a pocket is at least so much of an interruption."""
 
@@ -121,6 +125,27 @@ def pocket_share(strip: Strip) -> tuple[float, float] | None:
     breaks = np.flatnonzero(runs(~on)[0] > 0)
     dashed = DASHED[0] <= on.mean() <= DASHED[1] and len(breaks) >= LEAST_BREAKS
     return (low / count, high / count) if dashed and beside < 0.15 else None
+
+
+def dashed_faces(strip: Strip) -> bool:
+    """Whether both faces of the wall go on in dashes, with nothing between: a beam over a way."""
+    ink = strip.faint > 0
+    if ink[np.abs(strip.steps) <= 0.4 * strip.half_px].mean() > BETWEEN:
+        return False
+    near = max(0.35 * strip.half_px, 1.5)
+    return all(
+        _is_dashed(np.asarray(ink[np.abs(side * strip.steps - strip.half_px) <= near].any(axis=0)))
+        for side in (1, -1)
+    )
+
+
+def _is_dashed(line: NDArray[np.bool_]) -> bool:
+    """Whether a line is of several dashes, each about as long as the others."""
+    starts, ends = runs(line)
+    inner = (ends - starts)[1:-1]
+    if len(inner) < BEAM_DASHES - 2 or not BEAM[0] <= line.mean() <= BEAM[1]:
+        return False
+    return bool(inner.std() <= ALIKE * inner.mean())
 
 
 def runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -14,6 +14,9 @@ from veduta.plan.openings.classify import Judged
 from veduta.plan.walls.join import SAME_THICKNESS, merged
 from veduta.plan.walls.pieces import Piece
 
+SAME = 0.5
+"""Openings are the same one if so much of the smaller lies in the other."""
+
 
 @dataclass(frozen=True)
 class OnAxis:
@@ -63,7 +66,7 @@ def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
         mine = [one for one in judged if one.gap.piece in inside]
         for one in mine:
             line = _prolonged(line, one.gap.start, one.gap.far)
-        axes.append(Axis(line, tuple(_placed(line, one) for one in mine)))
+        axes.append(Axis(line, _distinct([_placed(line, one) for one in mine])))
     return axes
 
 
@@ -88,6 +91,17 @@ def _prolonged(line: Piece, *points: NDArray[np.float64]) -> Piece:
 def _on_circle(first: Piece, second: Piece) -> Piece:
     """One piece over both, on the circle of the first."""
     return _prolonged(first, second.start, second.end)
+
+
+def _distinct(placed: Sequence[OnAxis]) -> tuple[OnAxis, ...]:
+    """The openings without those that lie in a surer one: of a bay's side each end leads to it."""
+    kept: list[OnAxis] = []
+    for one in sorted(placed, key=lambda one: (-one.judged.score, one.first - one.last)):
+        common = (min(one.last, two.last) - max(one.first, two.first) for two in kept)
+        sizes = (min(one.last - one.first, two.last - two.first) for two in kept)
+        if not any(part > SAME * size for part, size in zip(common, sizes, strict=True)):
+            kept.append(one)
+    return tuple(one for one in placed if one in kept)
 
 
 def _placed(line: Piece, judged: Judged) -> OnAxis:

@@ -24,7 +24,7 @@ class BreastRule:
     apart: to the wall on either side, over a wall that joins there; solid: of what lies between,
     so much is. same_px: sides of one wall differ by at most so much. broad: a breast is at least so
     many times as long as it stands out: what is shorter is a stub of a wall that joins, beside a
-    door.
+    door. stub: so is what is no longer than so many times the thickness of thin walls.
     """
 
     out: float = 0.25
@@ -34,6 +34,7 @@ class BreastRule:
     solid: float = 0.9
     same_px: float = 2.0
     broad: float = 1.0
+    stub: float = 1.4
 
 
 BREAST = BreastRule()
@@ -71,7 +72,10 @@ def without_breasts(
         if (band := _band(track)) is not None and band.thick >= 0.8 * thickness.least_px
     ]  # fmt: skip
     cleared, count = solid.copy(), 0
+    stub_px = rule.stub * _thin(bands)
     for band in bands:
+        if band.end - band.start <= stub_px:
+            continue
         wall = _wall_around(band, bands, solid, rule)
         if wall is None:
             continue
@@ -79,6 +83,13 @@ def without_breasts(
             _clear(cleared, band, low, high)
         count += 1
     return (cleared, count) if count else (solid, 0)
+
+
+def _thin(bands: Sequence[Band]) -> float:
+    """The thickness of thin walls: a quarter of the length of all is no thicker; 0 of none."""
+    order = sorted(bands, key=lambda one: one.thick)
+    total = np.cumsum([one.end - one.start for one in order])
+    return order[int(np.searchsorted(total, 0.25 * total[-1]))].thick if order else 0.0
 
 
 def _band(track: Track) -> Band | None:

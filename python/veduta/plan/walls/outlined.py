@@ -83,6 +83,9 @@ FREE = 3.0
 FREE_SHARE = 0.25
 """They are walls if they are together so long, as a part of the others: less is furniture."""
 
+RIM = 4.0
+"""What lies around a basin is nowhere wider than so many times its usual breadth."""
+
 MOST_ROUNDS = 20
 
 
@@ -98,7 +101,9 @@ class _Sorting:
         self.middle = cache(cells.middle)
         self.ahead: dict[int, list[NDArray[np.int32]]] = {}
         self.even: dict[int, tuple[list[float], float]] = {
-            int(one): cells.widths(int(one)) for one in np.flatnonzero(cells.narrow)
+            int(one): cells.widths(int(one))
+            for one in np.flatnonzero(cells.narrow)
+            if not self._is_rim(int(one))
         }
         self.wall = np.zeros(len(cells.area), dtype=np.bool_)
         self.opening = np.zeros(len(cells.area), dtype=np.bool_)
@@ -128,6 +133,29 @@ class _Sorting:
         if length[free].sum() >= FREE_SHARE * length[self.wall].sum():
             self.wall[free] = True
         return self.wall
+
+    def _is_rim(self, cell: int) -> bool:
+        """Whether a cell is what lies around a basin: of a tub, a sink, a shower's tray.
+
+        It goes all around one cell that touches nothing else but what lies in it, as a drain, and
+        is hardly larger than that.
+        """
+        cells, breadth = self.cells, float(self.cells.breadth[cell])
+        left, top, width, height = (float(value) for value in cells.boxes[cell])
+        for other, _ in cells.beside.get(cell, []):
+            x, y, wide, high = (float(value) for value in cells.boxes[other])
+            sides = (x - left, y - top, left + width - x - wide, top + height - y - high)
+            alone = all(one == cell or self._is_in(one, cell) for one, _ in cells.beside[other])
+            if alone and not cells.room[other] and 0.0 < min(sides) <= max(sides) <= RIM * breadth:
+                return True
+        return False
+
+    def _is_in(self, cell: int, other: int) -> bool:
+        """Whether a cell lies in the box around another."""
+        left, top, width, height = self.cells.boxes[cell]
+        x, y, wide, high = self.cells.boxes[other]
+        across = x <= left and left + width <= x + wide
+        return bool(across and y <= top and top + height <= y + high)
 
     def _runs_on(self, cell: int) -> bool:
         """Whether a cell is a wall by itself: long, even, not straight, between two rooms."""
