@@ -130,7 +130,8 @@ def pocket_share(strip: Strip) -> tuple[float, float] | None:
 def dashed_faces(strip: Strip) -> bool:
     """Whether both faces of the wall go on in dashes, with nothing between: a beam over a way."""
     ink = strip.faint > 0
-    if ink[np.abs(strip.steps) <= 0.4 * strip.half_px].mean() > BETWEEN:
+    between = ink[np.abs(strip.steps) <= max(0.4 * strip.half_px, 0.6)]
+    if between.size == 0 or between.mean() > BETWEEN:
         return False
     near = max(0.35 * strip.half_px, 1.5)
     return all(
