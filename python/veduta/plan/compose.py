@@ -25,6 +25,7 @@ from veduta.plan.document import (
     Wall,
 )
 from veduta.plan.drawn import Drawn, DrawnFitting, DrawnOpening, DrawnRoom
+from veduta.plan.names.voids import names_void
 
 STOREY_HEIGHT_M = 2.7
 DOOR_HEIGHT_M = 2.05
@@ -186,6 +187,7 @@ def _room(one: DrawnRoom, frame: _Frame, named: Named | None) -> Room:
         use_origin=known.origin,
         name=known.name,
         outdoors=one.outdoors,
+        open_below=names_void(known.name),
         walls=list(one.walls),
         openings=list(one.openings),
         mended=one.mended,

@@ -202,6 +202,9 @@ class Room(_Record):
     use_origin: Origin = "inferred"
     name: str = Field(default="", description="as it is written on the plan")
     outdoors: bool = False
+    open_below: bool = Field(
+        default=False, description="it has no floor: one looks down into the storey below"
+    )
     walls: list[str] = []
     openings: list[str] = Field(default=[], description="those that lead in or let in light")
     mended: bool = Field(default=False, description="whether a gap was closed to make it a room")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 from closed_shells import shells
-from sample_plan import HEIGHT_M, rectangle, sample_plan, sample_storey
+from sample_plan import HEIGHT_M, rectangle, room, sample_plan, sample_storey
 from shapely.geometry import Polygon
 
 from veduta.place.part import Part
@@ -34,6 +34,26 @@ def house(*, below: bool = True, above: bool = True, up: tuple[float, float] = (
         name="first floor", elevation_m=HEIGHT_M, stairs=[flight(up)] if above else []
     )
     return build_house(sample_plan(ground, first), HouseOptions(slab=SLAB_M)).part
+
+
+def test_a_void_has_no_floor_and_no_ceiling_below_it() -> None:
+    void = room("void", rectangle(0.2, 0.2, 2.2, 2.2), open_below=True)
+    rest = room("rest", rectangle(2.2, 0.2, 6.0, 2.2))
+    ground = sample_storey()
+    shapes = [ground, *(sample_storey(name="first floor", elevation_m=HEIGHT_M, rooms=rooms)
+                        for rooms in ([void, rest], [rest]))]  # fmt: skip
+    spaces = [space_of(one, HEIGHT_M - SLAB_M) for one in shapes]
+    opened, whole = (stairwells([spaces[0], one], SLAB_M)[0].opening for one in spaces[1:])
+    assert whole.is_empty
+    inside = Polygon(rectangle(0.2, 0.2, 2.2, 2.2)).difference(spaces[1].walls)
+    assert opened.symmetric_difference(inside.difference(spaces[0].walls)).area < 0.05
+    house = build_house(sample_plan(ground, shapes[1]), HouseOptions(slab=SLAB_M)).part
+    down = mesh_of(house).ray
+    heights = [
+        down.intersects_location([[x, 1.2, HEIGHT_M + 1.0]], [[0.0, 0.0, -1.0]])[0][:, 2].max()
+        for x in (1.2, 4.5)
+    ]
+    assert heights[0] < 0.5 < HEIGHT_M - 0.1 < heights[1]
 
 
 def mesh_of(part: Part, *names: str) -> trimesh.Trimesh:

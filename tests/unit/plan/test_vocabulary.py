@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from veduta.plan.names.vocabulary import folded, language_of, meanings
+from veduta.plan.names.voids import names_void
 
 ROWS = list(
     csv.DictReader(files("veduta.plan.names").joinpath("words.csv").read_text("utf-8").splitlines())
@@ -89,3 +90,21 @@ def test_without_words_there_is_no_language() -> None:
 @given(st.text("abcdefghäöüé /+-.0123456789²m", max_size=30))
 def test_any_label_is_survived(label: str) -> None:
     assert all(0 < one.score <= 1 for one in meanings(label))
+
+
+@pytest.mark.parametrize(
+    ("label", "void"),
+    [
+        ("VOID", True),
+        ("Open to below", True),
+        ("OPEN TO GREAT ROOM", True),
+        ("Luftraum", True),
+        ("Vide sur séjour", True),
+        ("吹抜", True),
+        ("Pool", False),
+        ("Open kitchen", False),
+        ("Great room", False),
+    ],
+)
+def test_words_for_what_has_no_floor(label: str, void: bool) -> None:
+    assert names_void(label) is void

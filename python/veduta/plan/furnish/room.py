@@ -119,7 +119,7 @@ def room_spaces(
     stairs += [_flight(one, comes_up=True) for one in stairs_below]
     found = []
     for room, region in space.floors:
-        if room is None:
+        if room is None or room.open_below:
             continue
         # Narrow necks beside chimneys and in window niches are no floor to stand on.
         whole = max(pieces_of(region), key=lambda piece: piece.area)

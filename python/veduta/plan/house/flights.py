@@ -91,7 +91,10 @@ AnyFlight = Flight | TurningFlight
 
 @dataclass(frozen=True)
 class Stairwell:
-    """The flights from a storey up, the opening in the slab above, and what is to be said."""
+    """The flights from a storey up, the opening in the slab above, and what is to be said.
+
+    Rooms of the storey above that are open to below are in the opening, too.
+    """
 
     flights: tuple[AnyFlight, ...] = ()
     opening: BaseGeometry = field(default_factory=Polygon)
@@ -138,7 +141,8 @@ def _stairwell(lower: Space, upper: Space, own: Sequence[Stairs], slab_m: float)
     wells = unary_union([flight.well(slab_m) for flight in flights]) if flights else Polygon()
     # No strip of a slab is left between two flights.
     wells = wells.buffer(_BETWEEN_M, join_style="mitre").buffer(-_BETWEEN_M, join_style="mitre")
-    opening = solid_region(wells.intersection(upper.slab).difference(walls))
+    voids = unary_union([shape for room, shape in upper.rooms if room.open_below])
+    opening = solid_region(wells.union(voids).intersection(upper.slab).difference(walls))
     return Stairwell(tuple(flights), opening, tuple(notes))
 
 

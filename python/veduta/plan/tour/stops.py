@@ -62,7 +62,7 @@ def stops_of(grounds: Sequence[Ground], grid: Grid, start: int) -> Stops:
     for storey, ground in enumerate(grounds):
         before, notes = len(stops), []
         for room, shape in ground.space.rooms:
-            if is_cupboard(room):
+            if is_cupboard(room) or room.open_below:
                 continue
             within = squares_in(shape, grid, storey)
             there = within[reached[within]]
