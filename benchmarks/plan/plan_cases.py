@@ -61,7 +61,9 @@ def measured(name: str, folder: Path) -> Row:
                 "whole": "no", "why": result.failure.reason[:80]}  # fmt: skip
     storeys = json.loads((out / "plan.json").read_text())["storeys"]
     rooms_found = (Room.model_validate(room) for storey in storeys for room in storey["rooms"])
-    inner = [room for room in rooms_found if not room.outdoors and not is_cupboard(room)]
+    inner = [
+        room for room in rooms_found if not (room.outdoors or room.open_below or is_cupboard(room))
+    ]
     steps = json.loads((out / "report.json").read_text())["steps"]
     walked = next((step["counts"].get("rooms", 0) for step in steps if step["name"] == "tour"), 0)
     whole = abs(len(inner) - rooms) <= MISSED and walked >= OF_ROOMS * len(inner)

@@ -57,7 +57,7 @@ def measures(document: PlanDocument) -> dict[str, Any]:
     storeys = document.storeys
     openings = [opening for storey in storeys for opening in storey.openings]
     rooms = [room for storey in storeys for room in storey.rooms]
-    inner = [room for room in rooms if not room.outdoors]
+    inner = [room for room in rooms if not (room.outdoors or room.open_below)]
     doubtful = Counter(opening.kind for opening in openings if opening.score < DOUBTFUL)
     return {
         "storeys": len(storeys),

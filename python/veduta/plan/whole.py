@@ -14,13 +14,17 @@ WALKED = 0.5
 def parts_only(document: PlanDocument, tour: Tour | None) -> list[str]:
     """One sentence where the tour reaches few of the rooms, or a storey not at all; else nothing.
 
-    Cupboards and what lies outdoors are no rooms here. Without a tour nothing is known.
+    Cupboards, voids and what lies outdoors are no rooms here. Without a tour nothing is known.
     """
     if tour is None:
         return []
     walked = {(one.storey, one.room) for one in tour.stretches}
     rooms = [
-        [(number, room.id) for room in storey.rooms if not room.outdoors and not is_cupboard(room)]
+        [
+            (number, room.id)
+            for room in storey.rooms
+            if not (room.outdoors or room.open_below or is_cupboard(room))
+        ]
         for number, storey in enumerate(document.storeys)
     ]
     reached = [sum(room in walked for room in of_storey) for of_storey in rooms]
