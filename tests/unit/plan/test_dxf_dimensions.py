@@ -33,9 +33,7 @@ def around(corners: list[tuple[float, float]], turn_rad: float = 0.0) -> Storey:
     at = [(c * x - s * y, s * x + c * y) for x, y in corners]
     names = [f"j{row}" for row in range(len(at))]
     junctions = [Junction(id=n, at_m=place, type="L") for n, place in zip(names, at, strict=True)]
-    walls = [
-        wall(f"w{row}", name, names[(row + 1) % len(names)]) for row, name in enumerate(names)
-    ]
+    walls = [wall(f"w{row}", name, names[(row + 1) % len(names)]) for row, name in enumerate(names)]
     return sample_storey(
         junctions=junctions, walls=walls, openings=[window("n1", "w0", 1.0, 1.2)], rooms=[]
     )

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from veduta.plan.document import Text
 from veduta.plan.names.guess import RoomFacts, guess_uses
 from veduta.plan.names.name import name_rooms, shown
+from veduta.plan.names.voids import names_void
 
 
 def _box(x: float, y: float, wide: float, tall: float) -> NDArray[np.float64]:
@@ -152,3 +153,14 @@ def test_nobody_sleeps_where_stairs_are(area_m2: float, uses: list[str]) -> None
 )
 def test_a_name_is_shown_without_the_sizes_beside_it(label: str, name: str) -> None:
     assert shown(label) == name
+
+
+def test_what_lies_over_a_room_is_not_that_room() -> None:
+    texts = [_text("vide sur", 200, 150), _text("salon", 200, 164)]
+    (named,) = name_rooms([_box(0, 0, 400, 300)], texts, [RoomFacts(14.0)], [])
+    assert (named.use, named.origin) == ("other", "measured")
+    assert names_void(named.name)
+    # A railing parts a landing from it: the space is the landing.
+    both = [*texts, _text("Palier", 60, 40)]
+    (named,) = name_rooms([_box(0, 0, 400, 300)], both, [RoomFacts(20.0)], [])
+    assert not names_void(named.name)

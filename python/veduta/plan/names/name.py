@@ -13,6 +13,7 @@ from shapely.geometry import Point, Polygon, box
 from veduta.plan.document import Origin, RoomUse, Text
 from veduta.plan.names.guess import RoomFacts, guess_uses
 from veduta.plan.names.vocabulary import Language, Meaning, language_of, meanings
+from veduta.plan.names.voids import says_over
 
 _LINE_GAP = 0.9  # heights of text between two lines of one label
 _REMARK = re.compile(r"\b(?:access|above|below|(?:in|to) (?:the )?attic)\b", re.IGNORECASE)
@@ -126,6 +127,9 @@ def _goes_on(first: _Label, second: _Label) -> bool:
 
 def _named(labels: list[_Label], language: Language | None) -> NamedRoom | None:
     """What the labels of a room say; None where none is a word for a room."""
+    void = next((label for label in labels if says_over(label.text)), None)
+    if void is not None and not any(_names_another(label, void) for label in labels):
+        return NamedRoom("other", float(np.clip(void.score, 0.0, 1.0)), "measured", void.text)
     found = []
     for label in labels:
         if _REMARK.search(label.text):
@@ -141,6 +145,14 @@ def _named(labels: list[_Label], language: Language | None) -> NamedRoom | None:
     found.sort(key=lambda one: (_RANK.index(one[2].use), -one[0], -len(one[1].text)))
     score, label, meaning = found[0]
     return NamedRoom(meaning.use, float(np.clip(score, 0.0, 1.0)), "measured", shown(label.text))
+
+
+def _names_another(label: _Label, void: _Label) -> bool:
+    """Whether a label that is no part of that of a void names a room: then a railing parts both."""
+    low, high = void.box.min(axis=0) - 1.0, void.box.max(axis=0) + 1.0
+    middle = label.box.mean(axis=0)
+    part = bool((low <= middle).all() and (middle <= high).all()) or says_over(label.text)
+    return not part and bool(meanings(label.text))
 
 
 def shown(label: str) -> str:

@@ -15,8 +15,13 @@ _OVER = re.compile(r"(?:open|void|vide|vuoto|vazio|luftraum|vacio) (?:to|over|su
 """And what says over which room one is."""
 
 
+def says_over(label: str) -> bool:
+    """Whether a label says over which room one is: `vide sur salon`."""
+    return bool(_OVER.match(folded(label)))
+
+
 def names_void(label: str) -> bool:
     """Whether a label says that a space is open to what lies below."""
-    if _OVER.match(folded(label)):
+    if says_over(label):
         return True
     return any(one.word in WORDS for one in meanings(label)[:1])
