@@ -153,7 +153,9 @@ def _room_space(
         for hole, sign in ways
         if hole.opening.kind == "window"
     )
-    leaves = unary_union([leaf for hole, sign in doors for leaf in _leaves(hole, sign)])
+    # A car fills a garage: nobody walks around the leaf of its inner door then.
+    swung = doors if room.use != "garage" else []
+    leaves = unary_union([leaf for hole, sign in swung for leaf in _leaves(hole, sign)])
     blocked = unary_union([*zones, *stairs]).intersection(floor.buffer(0.05))
     shapely.prepare(blocked)
     walls = space.walls.buffer(1e-3)
