@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from veduta.plan.drawing import Drawing, Shape
+from veduta.plan.house.space import pieces_of
 from veduta.plan.terrace import axis_of
 
 DIMENSIONS = "A-ANNO-DIMS"
@@ -69,9 +70,9 @@ def add_dimensions(document: DxfDocument, drawing: Drawing, offset_m: float) -> 
 def _corners(ring: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, 2) where an outline turns: not along bows, nor where a wall is a little thicker."""
     # Where walls meet in a bow, slits without a width may be left between them.
-    whole = Polygon(ring).buffer(_PLAIN_M, join_style="mitre")
-    whole = whole.buffer(-_PLAIN_M, join_style="mitre").simplify(_PLAIN_M)
-    plain = np.array(whole.exterior.coords)[:-1]
+    closed = Polygon(ring).buffer(_PLAIN_M, join_style="mitre")
+    whole = pieces_of(closed.buffer(-_PLAIN_M, join_style="mitre").simplify(_PLAIN_M))
+    plain = np.array(max(whole, key=lambda one: one.area).exterior.coords)[:-1]
     into = plain - np.roll(plain, 1, axis=0)
     out = np.roll(into, -1, axis=0)
     turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], (into * out).sum(axis=1))
