@@ -151,8 +151,8 @@ def test_stairs_of_the_building_model_are_flights_with_railings() -> None:
     (own,) = model.by_type("IfcStairFlight")
     assert (own.NumberOfRisers, own.NumberOfTreads) == (15, 14)
     assert own.RiserHeight == pytest.approx(2.8 / 15)
-    (mesh,) = own.Representation.Representations[0].Items
-    points = np.array(mesh.Coordinates.CoordList)
+    meshes = own.Representation.Representations[0].Items
+    points = np.concatenate([np.array(one.Coordinates.CoordList) for one in meshes])
     assert points.min(axis=0) == pytest.approx([1.0, 3.855, 0.0], abs=1e-4)
     assert points.max(axis=0) == pytest.approx([4.5, 4.845, 14 * 2.8 / 15], abs=1e-4)
     guards = [one for one in model.by_type("IfcRailing") if one.PredefinedType == "GUARDRAIL"]

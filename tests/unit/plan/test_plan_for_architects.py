@@ -49,6 +49,17 @@ def test_each_element_has_material_colour_type_and_properties(
         assert all(item.id() in styled for shape in bodies for item in shape.Items)
 
 
+def test_doors_and_windows_have_their_sizes_as_quantities(model: ifcopenshell.file) -> None:
+    drawn = {one.id: one for one in sample_storey().openings}
+    for kind, word in (("IfcDoor", "Door"), ("IfcWindow", "Window")):
+        for one in model.by_type(kind):
+            opening = drawn[one.Name.split()[-1]]
+            sizes = ifcopenshell.util.element.get_psets(one)[f"Qto_{word}BaseQuantities"]
+            assert sizes["Width"] == pytest.approx(opening.width_m, abs=1e-3)
+            assert sizes["Height"] == pytest.approx(opening.height_m, abs=1e-3)
+            assert sizes["Area"] == pytest.approx(opening.width_m * opening.height_m, abs=1e-2)
+
+
 def test_walls_have_quantities_axes_and_connections(model: ifcopenshell.file) -> None:
     for wall in model.by_type("IfcWall"):
         sizes = ifcopenshell.util.element.get_psets(wall)["Qto_WallBaseQuantities"]

@@ -90,15 +90,17 @@ class Furnishing:
 
     def _material(self, look: Finish) -> int:
         if look not in self._materials:
-            texture = None
-            if look.texture is not None and look.texture in SURFACES:
-                pixels = painted(PREFIX + look.texture)
-                texture = Texture(pixels, np.ones(pixels.shape[:2], dtype=np.bool_))
-            material = Material(
-                look.name, look.colour, look.roughness, look.metalness, texture, look.opacity
-            )
-            self._materials[look] = self.builder.material(material)
+            self._materials[look] = self.builder.material(material_of(look))
         return self._materials[look]
+
+
+def material_of(look: Finish) -> Material:
+    """A finish of the catalogue as a material, with its painted texture."""
+    texture = None
+    if look.texture is not None and look.texture in SURFACES:
+        pixels = painted(PREFIX + look.texture)
+        texture = Texture(pixels, np.ones(pixels.shape[:2], dtype=np.bool_))
+    return Material(look.name, look.colour, look.roughness, look.metalness, texture, look.opacity)
 
 
 def check_objects(document: PlanDocument, catalogue: Catalogue, file: Path) -> None:

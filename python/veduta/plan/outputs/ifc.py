@@ -20,7 +20,6 @@ from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
 
 import veduta
-from veduta.place.semantics import SemanticClass
 from veduta.plan.document import Opening
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import GROUND_SLAB_M, House
@@ -32,9 +31,10 @@ from veduta.plan.house.wall_regions import wall_regions
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
-from veduta.plan.outputs.ifc_looks import by_name, describe
+from veduta.plan.outputs.ifc_looks import Describer, by_name, describe
+from veduta.plan.outputs.ifc_parts import lamps_of, roof_of
 from veduta.plan.outputs.ifc_paths import add_paths
-from veduta.plan.outputs.ifc_stairs import add_stairs, triangles_of
+from veduta.plan.outputs.ifc_stairs import add_stairs
 from veduta.plan.surroundings.site import Site
 
 Entity = Any
@@ -52,12 +52,13 @@ DoorOperation = Literal[
 def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> bytes:
     """The file's content. site: north and the place on the earth, as far as they are known."""
     model = _Model(site or Site())
-    furniture = FurnitureMaker(model, catalogue_of(options.catalogue))
+    describer = Describer(model)
+    furniture = FurnitureMaker(model, catalogue_of(options.catalogue), describer)
     storeys = []
     for index, space in enumerate(house.spaces):
         above = house.spaces[index + 1] if index + 1 < len(house.spaces) else None
         storeys.append(_storey(model, space, above, options, is_lowest=index == 0))
-        model.contain(storeys[-1], _lamps(model, house, space, storeys[-1]), "lamps")
+        model.contain(storeys[-1], lamps_of(model, describer, house, space, storeys[-1]), "lamps")
         things = furniture.of_storey(space.storey, storeys[-1].ObjectPlacement)
         model.contain(storeys[-1], things, "furniture")
         rooms = [one for rel in storeys[-1].IsDecomposedBy for one in rel.RelatedObjects]
@@ -65,13 +66,13 @@ def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> 
         coverings = finishes_of(model, house.part, space, place, rooms)
         model.contain(storeys[-1], coverings, "finishes")
     model.aggregate(model.building, storeys, "storeys")
-    add_stairs(model, house, storeys)
-    roof = _roof(model, house)
+    add_stairs(model, describer, house, storeys)
+    roof = roof_of(model, describer, house)
     if roof is not None:
         model.contain(storeys[-1], [roof], "roof")
     kinds = ("IfcWall", "IfcDoor", "IfcWindow", "IfcSlab", "IfcRoof", "IfcSpace")
     named = by_name(one for kind in kinds for one in model.file.by_type(kind))
-    describe(model, house, named, options.slab)
+    describe(describer, house, named, options.slab)
     add_paths(model, house, named)
     return model.content()
 
@@ -371,34 +372,3 @@ def _spaces(model: _Model, space: Space, height: float, place: Entity) -> list[E
         )  # fmt: skip
         found.append(own)
     return found
-
-
-def _lamps(model: _Model, house: House, space: Space, storey: Entity) -> list[Entity]:
-    """A light fixture for each lamp that has a body of its own, as it is in the part."""
-    names = {f"{space.storey.name} light {light.id}": light for light in space.storey.lights or []}
-    found = []
-    for feature, name in enumerate(house.part.features.name):
-        light = names.get(name)
-        if light is None:
-            continue
-        fixture = model.product(
-            "IfcLightFixture", name, storey.ObjectPlacement,
-            ObjectType=light.kind, PredefinedType="POINTSOURCE",
-        )  # fmt: skip
-        points, corners = triangles_of(house.part, [feature])
-        points = points - np.array([0.0, 0.0, space.storey.elevation_m])
-        fixture.Representation = model.mesh(points, corners)
-        found.append(fixture)
-    return found
-
-
-def _roof(model: _Model, house: House) -> Entity | None:
-    """The roof as it is in the part, its triangles about the building's origin."""
-    is_roof = house.part.features.class_code == SemanticClass.ROOF.code
-    points, corners = triangles_of(house.part, np.flatnonzero(is_roof).tolist())
-    if not len(corners):
-        return None
-    roof = model.product("IfcRoof", "Roof", model.building.ObjectPlacement)
-    roof.PredefinedType = "NOTDEFINED"
-    roof.Representation = model.mesh(points, corners)
-    return roof

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from veduta.place.material import Colour
 from veduta.plan.house.build import House
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space
@@ -18,7 +19,6 @@ _LOOKS: dict[str, tuple[str, tuple[float, float, float], float]] = {
     "door": ("Wood", (0.55, 0.38, 0.24), 0.0),
     "window": ("Glass", (0.62, 0.78, 0.86), 0.6),
     "slab": ("Concrete", (0.70, 0.70, 0.70), 0.0),
-    "roof": ("Roof tiles", (0.52, 0.25, 0.20), 0.0),
 }
 """Kind of element: its material, its colour (sRGB, 0 to 1) and its transparency. All are invented:
 no plan says them."""
@@ -37,6 +37,9 @@ class Describer:
         self._members: dict[str, list[Entity]] = {}
         self._types: dict[str, tuple[Entity, list[Entity]]] = {}
         self._layers: dict[tuple[str, float], tuple[Entity, list[Entity]]] = {}
+        self._finishes: dict[tuple[str, Colour, float], Entity] = {}
+        self._plain: dict[str, Entity] = {}
+        self._sets: dict[tuple[str, ...], list[Entity]] = {}
 
     def made_of(self, element: Entity, kind: str) -> None:
         """An element of one material, and of its colour."""
@@ -64,6 +67,21 @@ class Describer:
         self._layers[key][1].append(wall)
         self._coloured(wall, kind)
 
+    def finished(self, item: Entity, name: str, colour: Colour, transparency: float) -> None:
+        """A piece of a shape in its own colour (sRGB, 0 to 1)."""
+        key = (name, colour, transparency)
+        if key not in self._finishes:
+            shade = self.model.make("IfcColourRgb", None, *colour)
+            shading = self.model.make("IfcSurfaceStyleShading", shade, transparency)
+            self._finishes[key] = self.model.make(
+                "IfcSurfaceStyle", Name=name, Side="BOTH", Styles=[shading]
+            )
+        self.model.make("IfcStyledItem", Item=item, Styles=[self._finishes[key]])
+
+    def made_of_all(self, element: Entity, names: tuple[str, ...]) -> None:
+        """An element of these materials, each of a part of it; its pieces have their colours."""
+        self._sets.setdefault(names, []).append(element)
+
     def typed(self, element: Entity, kind: str, name: str, **named: Any) -> None:
         """An element as one of a type, which is made once."""
         if name not in self._types:
@@ -73,7 +91,9 @@ class Describer:
     def properties(self, element: Entity, name: str, values: Mapping[str, object]) -> None:
         """A property set of an element: truth values, numbers, and words."""
         made = [
-            self.model.make("IfcPropertySingleValue", Name=key, NominalValue=self._value(value))
+            self.model.make(
+                "IfcPropertySingleValue", Name=key, NominalValue=self._value(key, value)
+            )
             for key, value in values.items()
         ]
         own = self.model.rooted("IfcPropertySet", f"{element.Name} {name}", HasProperties=made)
@@ -99,12 +119,21 @@ class Describer:
         own.Name = name
         self._defines(element, own, name)
 
+    def provenance(self, element: Entity, origin: str, score: float | None = None) -> None:
+        """Where an element comes from, and how sure it is."""
+        values: dict[str, object] = {"Origin": origin}
+        if score is not None:
+            values["Score"] = float(score)
+        self.properties(element, "Veduta_Provenance", values)
+
     def finish(self) -> None:
         """The relations to materials and types, one for all that share one."""
         for kind, members in self._members.items():
             self._associated(f"{kind} material", members, self._materials[kind])
         for (kind, thickness_m), (usage, walls) in self._layers.items():
             self._associated(f"{_wall_name(kind, thickness_m)} layers", walls, usage)
+        for names, members in self._sets.items():
+            self._associated(f"{', '.join(names)} materials", members, self._constituents(names))
         for name, (kind, members) in self._types.items():
             self.model.rooted(
                 "IfcRelDefinesByType", f"{name} members",
@@ -122,12 +151,29 @@ class Describer:
             RelatedObjects=[element], RelatingPropertyDefinition=definition,
         )  # fmt: skip
 
-    def _value(self, value: object) -> Entity:
+    def _constituents(self, names: tuple[str, ...]) -> Entity:
+        for name in names:
+            if name not in self._plain:
+                self._plain[name] = self.model.make("IfcMaterial", Name=name)
+        if len(names) == 1:
+            return self._plain[names[0]]
+        parts = [
+            self.model.make("IfcMaterialConstituent", Name=name, Material=self._plain[name])
+            for name in names
+        ]
+        return self.model.make(
+            "IfcMaterialConstituentSet", Name=", ".join(names), MaterialConstituents=parts
+        )
+
+    def _value(self, key: str, value: object) -> Entity:
         if isinstance(value, bool):
             return self.model.make("IfcBoolean", value)
+        if isinstance(value, int):
+            return self.model.make("IfcCountMeasure", value)
         if isinstance(value, float):
-            return self.model.make("IfcReal", value)
-        return self.model.make("IfcLabel", str(value))
+            kind = "IfcPositiveLengthMeasure" if key.endswith("Height") else "IfcReal"
+            return self.model.make(kind, value)
+        return self.model.make("IfcIdentifier" if key == "Reference" else "IfcLabel", str(value))
 
     def _style(self, kind: str) -> Entity:
         _, (red, green, blue), transparency = _LOOKS[kind]
@@ -143,9 +189,10 @@ class Describer:
                 self.model.make("IfcStyledItem", Item=item, Styles=[self._styles[kind]])
 
 
-def describe(model: Model, house: House, named: Mapping[str, Entity], slab_m: float) -> None:
+def describe(
+    describer: Describer, house: House, named: Mapping[str, Entity], slab_m: float
+) -> None:
     """All elements of a house: named are those of the file, by the names that they have there."""
-    describer = Describer(model)
     for space in house.spaces:
         height = space.storey.height_m - slab_m
         for name in space.lines:
@@ -161,14 +208,10 @@ def describe(model: Model, house: House, named: Mapping[str, Entity], slab_m: fl
             if own is not None:
                 said = {"Reference": room.use, "IsExternal": room.outdoors}
                 describer.properties(own, "Pset_SpaceCommon", said)
-                _provenance(describer, own, room.use_origin, room.score)
+                describer.provenance(own, room.use_origin, room.score)
     for entity in named.values():
         if entity.is_a("IfcSlab"):
             _slab(describer, entity)
-        elif entity.is_a("IfcRoof"):
-            describer.made_of(entity, "roof")
-            describer.properties(entity, "Pset_RoofCommon", {"IsExternal": True})
-            _provenance(describer, entity, "invented")
     describer.finish()
 
 
@@ -195,7 +238,7 @@ def _wall(describer: Describer, space: Space, name: str, entity: Entity, height:
             "NetVolume": max(side - cut, 0.0) * width,
         },
     )  # fmt: skip
-    _provenance(describer, entity, wall.origin, wall.score)
+    describer.provenance(entity, wall.origin, wall.score)
 
 
 def _filling(describer: Describer, hole: Hole, entity: Entity) -> None:
@@ -223,7 +266,7 @@ def _filling(describer: Describer, hole: Hole, entity: Entity) -> None:
     describer.quantities(
         entity, f"Qto_{word}BaseQuantities", {"Width": wide, "Height": high, "Area": wide * high}
     )
-    _provenance(describer, entity, hole.opening.origin, hole.opening.score)
+    describer.provenance(entity, hole.opening.origin, hole.opening.score)
 
 
 def _slab(describer: Describer, entity: Entity) -> None:
@@ -232,16 +275,7 @@ def _slab(describer: Describer, entity: Entity) -> None:
     name = "ground slab" if on_ground else "floor slab"
     describer.typed(entity, "IfcSlabType", name, PredefinedType=entity.PredefinedType)
     describer.properties(entity, "Pset_SlabCommon", {"Reference": name, "IsExternal": on_ground})
-    _provenance(describer, entity, "invented")
-
-
-def _provenance(
-    describer: Describer, entity: Entity, origin: str, score: float | None = None
-) -> None:
-    values: dict[str, object] = {"Origin": origin}
-    if score is not None:
-        values["Score"] = float(score)
-    describer.properties(entity, "Veduta_Provenance", values)
+    describer.provenance(entity, "invented")
 
 
 def _wall_name(kind: str, thickness_m: float) -> str:

@@ -13,9 +13,10 @@ Entity = Any
 
 
 class Model(Protocol):
-    """The file. body: the context of shapes in three dimensions."""
+    """The file. body: the context of shapes in three dimensions. building: the house in it."""
 
     body: Entity
+    building: Entity
 
     def make(self, kind: str, *values: Any, **named: Any) -> Entity:
         """An entity without an id of its own."""

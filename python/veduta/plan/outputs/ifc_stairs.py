@@ -6,27 +6,33 @@ Shapes are those of the part, as triangles. No plan shows a height: risers follo
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
-from veduta.place.part import Part
 from veduta.plan.house.build import House
 from veduta.plan.house.stair_pieces import StairPieces, guard_rails, stair_pieces
+from veduta.plan.outputs.ifc_looks import Describer
 from veduta.plan.outputs.ifc_model import Entity, Model
+from veduta.plan.outputs.ifc_parts import (
+    coloured,
+    describe_railing,
+    describe_stair,
+    names_of,
+    pieces_of_part,
+)
 
 
-def add_stairs(model: Model, house: House, storeys: Sequence[Entity]) -> None:
+def add_stairs(model: Model, describer: Describer, house: House, storeys: Sequence[Entity]) -> None:
     """The stairs of a house in the storeys in which they begin, rails of wells where one stands."""
     entity = {space.storey.name: own for space, own in zip(house.spaces, storeys, strict=True)}
     stairs: dict[str, list[Entity]] = {}
     rails: dict[str, list[Entity]] = {}
     for one in stair_pieces(house):
         name = one.space.storey.name
-        stairs.setdefault(name, []).append(_stair(model, house, one, entity[name]))
+        stairs.setdefault(name, []).append(_stair(model, describer, house, one, entity[name]))
     for space, name, feature in guard_rails(house):
         storey = entity[space.storey.name]
-        rail = _railing(model, house, name, feature, storey.ObjectPlacement, "GUARDRAIL")
+        place = storey.ObjectPlacement
+        rail = _railing(model, describer, house, name, feature, place, "GUARDRAIL")
         rails.setdefault(space.storey.name, []).append(rail)
     for name, found in stairs.items():
         model.contain(entity[name], found, "stairs")
@@ -34,7 +40,9 @@ def add_stairs(model: Model, house: House, storeys: Sequence[Entity]) -> None:
         model.contain(entity[name], found, "guard rails")
 
 
-def _stair(model: Model, house: House, one: StairPieces, storey: Entity) -> Entity:
+def _stair(
+    model: Model, describer: Describer, house: House, one: StairPieces, storey: Entity
+) -> Entity:
     stair = model.product("IfcStair", one.name, storey.ObjectPlacement, PredefinedType=_kind(one))
     place = stair.ObjectPlacement
     risers = one.stairs.treads + 1
@@ -44,9 +52,11 @@ def _stair(model: Model, house: House, one: StairPieces, storey: Entity) -> Enti
         RiserHeight=float(one.rise_m / risers),
     )  # fmt: skip
     features = [*one.body, *one.columns.values()]
-    flight.Representation = _shape(model, house, features, place)
+    pieces = pieces_of_part(house.part, features, _up_m(place))
+    flight.Representation = coloured(model, describer, pieces)
+    describe_stair(describer, stair, flight, one, names_of(pieces))
     rails = [
-        _railing(model, house, name, feature, place, "HANDRAIL")
+        _railing(model, describer, house, name, feature, place, "HANDRAIL")
         for name, feature in one.rails.items()
     ]
     model.aggregate(stair, [flight, *rails], "parts")
@@ -59,17 +69,19 @@ def _kind(one: StairPieces) -> str:
 
 
 def _railing(
-    model: Model, house: House, name: str, feature: int, place: Entity, kind: str
+    model: Model,
+    describer: Describer,
+    house: House,
+    name: str,
+    feature: int,
+    place: Entity,
+    kind: Literal["HANDRAIL", "GUARDRAIL"],
 ) -> Entity:
     railing = model.product("IfcRailing", name, place, PredefinedType=kind)
-    railing.Representation = _shape(model, house, [feature], place)
+    pieces = pieces_of_part(house.part, [feature], _up_m(place))
+    railing.Representation = coloured(model, describer, pieces)
+    describe_railing(describer, railing, names_of(pieces))
     return railing
-
-
-def _shape(model: Model, house: House, features: Sequence[int], place: Entity) -> Entity:
-    """Triangles about a placement, which lies straight above the part's origin."""
-    points, corners = triangles_of(house.part, features)
-    return model.mesh(points - np.array([0.0, 0.0, _up_m(place)]), corners)
 
 
 def _up_m(place: Entity) -> float:
@@ -79,13 +91,3 @@ def _up_m(place: Entity) -> float:
         height += float(place.RelativePlacement.Location.Coordinates[2])
         place = place.PlacementRelTo
     return height
-
-
-def triangles_of(
-    part: Part, features: Sequence[int]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """(n, 3) points and (m, 3) triangles of some features of a part."""
-    chosen = np.isin(part.polygon_feature, features)[part.triangles.polygon]
-    used, corners = np.unique(part.triangles.indices[chosen], return_inverse=True)
-    points: NDArray[np.float64] = part.positions_m[used].astype(np.float64)
-    return points, corners.reshape(-1, 3).astype(np.int64)
