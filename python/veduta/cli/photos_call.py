@@ -101,4 +101,6 @@ class PhotosCall:
 
     def given(self) -> Given:
         """What is given beside the photos."""
-        return Given(self.masks, self.video, self.from_colmap)
+        named = (self.world.model, self.world.gcp, self.world.positions)
+        others = tuple(path for path in named if path is not None)
+        return Given(self.masks, self.video, self.from_colmap, others)

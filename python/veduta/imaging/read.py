@@ -29,7 +29,7 @@ MAX_SIDE_PX = 30_000
 MAX_FILE_BYTES = 1_000_000_000
 FORMATS = ("JPEG", "PNG", "TIFF", "WEBP")
 OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
-SUFFIXES = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp")
+SUFFIXES = (".jpg", ".jpeg", ".jpe", ".jfif", ".mpo", ".png", ".tif", ".tiff", ".webp")
 
 _HEIC_BRANDS = (b"heic", b"heix", b"mif1", b"msf1", b"hevc")
 

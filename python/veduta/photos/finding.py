@@ -101,6 +101,7 @@ def find_components(
         components, left = finish_components(grown, read.photos, options, progress)
         told.left += left
         told.notes += [note for component in components for note in component.notes]
+        told.alarms += doubtful_focal(components[0], read.photos, options)
         step.rejected.extend(f"{name}: {reason}" for name, reason in left)
         step.counts["kinds tried"] = sum(len(component.lens.tried) for component in components)
     return components
@@ -116,6 +117,18 @@ def _structures(
     views = views_among(read.photos)
     found = [structure_of(model, names) for model in models]
     return [snapped(replace(one, rig_held=held, focal_held=given, views=views)) for one in found]
+
+
+def doubtful_focal(
+    first: Component, photos: Sequence[PhotoRecord], options: PhotosOptions
+) -> list[str]:
+    """What to say of the largest component, which is not left out: there would be nothing."""
+    if options.camera.focal_px is not None:
+        return []
+    why = absurd(first, {photo.image_id: photo for photo in photos}, {})
+    if not why:
+        return []
+    return [f"the place may be out of true: {why}. Add photos, or give --focal-px"]
 
 
 def finish_components(

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.photos.cameras.component import Component
+from veduta.photos.cameras.component import Component, component_name
 from veduta.photos.cameras.vertical_edges import SegmentsOf
 from veduta.photos.city.facades import facades_of
 from veduta.photos.city.lifted import lifted
@@ -65,7 +65,8 @@ def lay_components(
             progress("walls", number / len(components))
             near = replace(component, structure=without_parallel(component.structure))
             if lost := len(component.structure.points) - len(near.structure.points):
-                told = f"component {number}: {lost} points whose distance nobody knows"
+                name = component_name(number)
+                told = f"component {name}: {lost} points whose distance nobody knows"
                 step.rejected.append(told)
             upright.append(_upright(near, photos, edges))
             wanted = number == 0 or references.model is not None
@@ -78,7 +79,7 @@ def lay_components(
         ]
         for number, one in enumerate(laid):
             step.rejected.extend(
-                f"component {number}, {tried.method}: {tried.why}"
+                f"component {component_name(number)}, {tried.method}: {tried.why}"
                 for tried in one.georef.tried
                 if not tried.accepted
             )

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from veduta.photos.cameras.component import Component
+from veduta.photos.cameras.component import Component, component_name
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.laying import Laid
 from veduta.photos.mapping.doubt import Doubt
@@ -19,7 +19,6 @@ from veduta.photos.matching.match import PairRecord
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report_doubts import (
     FOLDED_NOTE,
-    component_name,
     components_note,
     doubts_note,
     doubts_table,
@@ -257,7 +256,7 @@ def _notes(told: Told) -> list[str]:
     georef = [one.georef for one in told.laid]
     in_world = bool(georef) and georef[0].accepted is not None
     notes = [] if in_world else [SCALE_NOTE]
-    notes += [_up_note(told.components[0]), *georef_notes(georef), *told.notes]
+    notes += [up_note(told.components[0]), *georef_notes(georef), *told.notes]
     notes += [f"control points, {mark}" for mark in told.marks]
     notes += [*told.alarms, *rig_alarms(told.rig), *panorama_notes(told.photos)]
     notes += [] if told.textured is None else [told.textured.line]
@@ -295,11 +294,15 @@ def _image_ids(told: Told) -> list[tuple[int, ...]]:
     return [component.structure.image_ids for component in told.components]
 
 
-def _up_note(component: Component) -> str:
+def up_note(component: Component) -> str:
+    """What says which way is up."""
+    found = component.upright
+    if found is not None and found.by:
+        return f"up is inferred from {found.by}, to {found.sd_deg:.1f}°"
     note = f"{UP_NOTE}; the cameras lie {component.level_deg:.1f}° off"
-    if component.upright is None:
+    if found is None:
         return note
-    return f"{note}, and what is upright moved it by {component.upright.moved_deg:.1f}°"
+    return f"{note}, and what is upright moved it by {found.moved_deg:.1f}°"
 
 
 def _facts(measures: dict[str, Any]) -> list[tuple[str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from veduta.photos.cameras.component import component_name
 from veduta.photos.mapping.doubt import Doubt
 from veduta.run.page import Table
 from veduta.run.report import counted
@@ -13,16 +14,6 @@ FOLDED_NOTE = (
     "some photos contradict each other still: each shows what the other, beside it, lacks."
     " Sides of a building that look alike may be folded onto each other"
 )
-
-
-def component_name(number: int) -> str:
-    """A, B, .. Z, AA, AB, ..: what component `sparse/number` is called."""
-    name = ""
-    number += 1
-    while number:
-        number, letter = divmod(number - 1, 26)
-        name = chr(ord("A") + letter) + name
-    return name
 
 
 def components_note(sizes: Sequence[int], in_world: Sequence[bool] = ()) -> str:

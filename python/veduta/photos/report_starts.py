@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from veduta.photos.cameras.component import component_name
 from veduta.photos.mapping.initial_pair import LEAST_ANGLE_DEG, MOST_PLANAR, Start
-from veduta.photos.report_doubts import component_name
 from veduta.run.page import Table
 from veduta.run.report import counted
 

@@ -9,6 +9,7 @@ import pytest
 from pyproj import Transformer
 from test_which_way_up import records, survey
 
+from veduta.imaging.shot import Position
 from veduta.photos.world.position_file import at_positions, read_positions
 from veduta.run.errors import InputError
 
@@ -43,6 +44,8 @@ def test_positions_are_read(tmp_path: Path) -> None:
         ("EPSG:32632\na.jpg 1\n", "line 2 is no position"),
         ("EPSG:32632\na.jpg one two\n", "line 2 is no position"),
         ("here\na.jpg 1 2\n", "names no CRS"),
+        ("EPSG:32632\na.jpg 9.18 48.7\nb.jpg 9.19 48.7\n", "looks like degrees"),
+        ("WGS84\na.jpg 48.7 109.18\n", "latitude seems to come first"),
     ],
 )
 def test_bad_files_say_what_is_wrong(tmp_path: Path, text: str, fault: str) -> None:
@@ -65,3 +68,19 @@ def test_they_take_the_place_of_gps(tmp_path: Path) -> None:
             [replace(photos[0], name="OTHER.jpg")],
             read_positions(written(tmp_path, "EPSG:32632\nothers.jpg 500000 5400000\n")),
         )
+
+
+def test_a_file_of_another_place_than_exif_is_told(tmp_path: Path) -> None:
+    structure, _, _ = survey(0)
+    shown = Position(latitude_deg=48.7, longitude_deg=9.18)
+    photos = [replace(photo, position=shown) for photo in records(structure, None)[:3]]
+    names = [photo.name for photo in photos]
+    exchanged = "\n".join(["WGS84", *(f"{name} 48.7 9.18" for name in names)])
+    (told,) = [
+        one
+        for one in at_positions(photos, read_positions(written(tmp_path, exchanged)))[1]
+        if "EXIF" in one
+    ]
+    assert "longitude stands before latitude" in told
+    right = "\n".join(["WGS84", *(f"{name} 9.1801 48.7" for name in names)])
+    assert "EXIF" not in " ".join(at_positions(photos, read_positions(written(tmp_path, right)))[1])

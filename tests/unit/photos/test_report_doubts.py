@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from veduta.photos.cameras.component import component_name
 from veduta.photos.mapping.doubt import Doubt
 from veduta.photos.matching.match import PairRecord
-from veduta.photos.report_doubts import component_name, components_note, doubts_table
+from veduta.photos.report_doubts import components_note, doubts_table
 from veduta.photos.report_pictures import CAMERA, match_picture
 
 

@@ -11,7 +11,7 @@ from known_structure import HEIGHT_PX, WIDTH_PX, known_structure
 from simulated_street import simulated_street
 
 from veduta.photos.cameras.component import FEWEST_POINTS, without_weak
-from veduta.photos.finding import finish_components
+from veduta.photos.finding import doubtful_focal, finish_components
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.options import CameraOptions, PhotosOptions
 from veduta.photos.structure import Structure, errors_px
@@ -102,3 +102,17 @@ def test_a_component_without_a_solution_is_left_out_and_the_others_go_on() -> No
     assert all("5 photos did not converge" in reason for _, reason in left)
     with pytest.raises(NotFoundError, match="did not converge"):
         finish_components([lost], PHOTOS, PINHOLE)
+
+
+def test_a_lone_component_that_contradicts_exif_is_told() -> None:
+    (found,), _ = finish_components([known_structure(photos=5, points=120)], PHOTOS, PINHOLE)
+    focal = float(found.structure.camera(0).mean_focal_length())
+    stated = [replace(photo, focal_px=1.1 * focal) for photo in PHOTOS]
+    assert doubtful_focal(found, stated, PINHOLE) == []
+    wrong = [replace(photo, focal_px=0.1 * focal) for photo in PHOTOS]
+    (told,) = doubtful_focal(found, wrong, PINHOLE)
+    assert "where EXIF states" in told
+    given = PINHOLE.model_copy(
+        update={"camera": PINHOLE.camera.model_copy(update={"focal_px": focal})}
+    )
+    assert doubtful_focal(found, wrong, given) == []

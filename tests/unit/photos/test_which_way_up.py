@@ -21,6 +21,7 @@ from veduta.photos.cameras.component import Component
 from veduta.photos.cameras.lens import CameraKind, LensChoice
 from veduta.photos.cameras.orient import oriented, transformed
 from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.report import up_note
 from veduta.photos.structure import Structure
 from veduta.photos.world.gps_fit import gps_georeference
 from veduta.photos.world.gps_positions import gps_positions
@@ -127,6 +128,7 @@ def test_gps_says_which_way_is_up(pitch_deg: float, turns: bool) -> None:
     assert looks_down(found.structure)
     assert found.upright is not None
     assert 0.0 < found.upright.sd_deg < 1.0
+    assert "from the positions of GPS" in up_note(found)
 
 
 def test_the_scale_of_a_survey_is_that_of_gps() -> None:
@@ -162,6 +164,7 @@ def test_a_gimbal_says_it(pitch_deg: float) -> None:
     found = which_way_up(component(structure), records(structure, None, pitch_deg=pitch_deg))
     assert off_deg(found, structure, up) < 1.5
     assert looks_down(found.structure)
+    assert "from the gimbal" in up_note(found)
 
 
 def test_the_pitch_of_a_gimbal_is_read(tmp_path: Path) -> None:
@@ -186,5 +189,6 @@ def test_heights_of_gps_do_not_tilt_photos_of_people() -> None:
     before = component(structure)
     found = which_way_up(before, records(structure, drifted, 0.3))
     assert found is before
+    assert "people hold cameras level" in up_note(found)
     assert is_held_upright(before.structure)
     assert not is_held_upright(component(survey(1)[0]).structure)

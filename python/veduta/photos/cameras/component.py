@@ -148,3 +148,13 @@ def without_weak(structure: Structure) -> tuple[Structure, tuple[str, ...]]:
     frame = structure.by_frame()
     counts = np.bincount(frame, weights=counts)[frame]
     return structure.without_doubtful(counts < FEWEST_POINTS)
+
+
+def component_name(number: int) -> str:
+    """A, B, .. Z, AA, AB, ..: what component `sparse/number` is called."""
+    name = ""
+    number += 1
+    while number:
+        number, letter = divmod(number - 1, 26)
+        name = chr(ord("A") + letter) + name
+    return name

@@ -39,11 +39,14 @@ TRUE_RAD = np.deg2rad(0.25)
 
 @dataclass(frozen=True)
 class Upright:
-    """up: (3,) unit. moved_deg: from what the cameras said. sd_deg: about the worse known axis."""
+    """up: (3,) unit. moved_deg: from what the cameras said. sd_deg: about the worse known axis.
+    by: what says it where walls and vertical edges do not.
+    """
 
     up: NDArray[np.float64]
     moved_deg: float
     sd_deg: float
+    by: str = ""
 
     @property
     def whole_sd_rad(self) -> float:

@@ -37,7 +37,7 @@ class Call:
     folder: what the results are named after; the film where there is no folder.
     copies: files with the content of an earlier one, as (name, name of the earlier one).
     unreadable: files that the system does not let us read, as (name, reason).
-    unread: pictures of formats that are not read, as (name, reason).
+    unread: pictures that are not read, as (name, reason).
     models: the components of a COLMAP model to start from. rig: what a file says of the rig that
     took the photos. notes: what else is to be told.
     """
@@ -115,6 +115,7 @@ def _of_a_rig(folder: Path | None, given: Given) -> Call:
     copies: list[tuple[str, str]] = []
     unreadable: list[tuple[str, str]] = []
     unread: list[tuple[str, str]] = []
+    aside_notes: list[str] = []
     inner = _camera_folders(folder)
     for one in inner:
         # Two cameras that see nothing may have the same picture.
@@ -122,15 +123,17 @@ def _of_a_rig(folder: Path | None, given: Given) -> Call:
         sources += found[0]
         copies += found[1]
         unreadable += found[2]
-        unread += [(f"{one.name}/{name}", why) for name, why in unread_files(one, given)[0]]
+        own, told_of = unread_files(one, given)
+        unread += [(f"{one.name}/{name}", why) for name, why in own]
+        aside_notes += [f"{one.name}: {note}" for note in told_of]
     taken, notes = mounted(folder, sources)
     path = folder / RIG_FILE
     told = None
     if path.exists():
         told = read_rig_file(path, input_digest(path, LARGEST_FILE), [one.name for one in inner])
-    loose = [one.name for one in _paths(folder)]
-    if loose:
-        notes = (*notes, f"{len(loose)} photos beside the cameras' folders are not used")
+    why = "lies beside the cameras' folders"
+    unread += [(one.name, why) for one in _paths(folder)]
+    notes = (*notes, *aside_notes)
     aside = (tuple(copies), tuple(unreadable))
     return Call(folder, taken, *aside, unread=tuple(unread), rig=told, notes=notes)
 

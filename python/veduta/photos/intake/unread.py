@@ -10,7 +10,6 @@ from veduta.photos.intake.given import Given
 from veduta.run.errors import InputError
 from veduta.run.names import real_path
 
-MOST_NAMED = 8
 POSITIONS = "geo.txt"
 """As OpenDroneMap calls a file of positions."""
 _RAW = (
@@ -18,6 +17,8 @@ _RAW = (
     *(".raf", ".pef", ".srw", ".x3f", ".3fr", ".iiq", ".mrw", ".raw", ".erf", ".kdc"),
 )
 _OTHER = (".bmp", ".gif", ".avif", ".jxl", ".jp2", ".j2k", ".psd", ".exr", ".hdr", ".tga", ".ppm")
+_TWO_EYES = (".insp",)
+"""Two pictures of fisheyes in one JPEG, as cameras of panoramas write them."""
 _FILMS = (".mp4", ".mov", ".avi", ".mkv", ".webm", ".mpg", ".mpeg", ".m4v")
 
 
@@ -36,20 +37,26 @@ def why_unread(path: Path) -> str:
     if suffix in _OTHER:
         kind = suffix.removeprefix(".").upper()
         return f"is a {kind} picture, which is not read: save it as JPEG, PNG or TIFF"
+    if suffix in _TWO_EYES:
+        return "holds the pictures of two fisheyes: export it as one panorama (JPEG)"
     return ""
 
 
 def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...], tuple[str, ...]]:
-    """Pictures of the folder that are not read, as (name, reason), and a note on all other files.
+    """Pictures of the folder that are not read, as (name, reason), and notes on all other files and
+    on folders with photos.
 
     What the call names itself, and hidden files, are not told.
     """
     try:
-        paths = sorted(path for path in folder.iterdir() if path.is_file())
+        entries = sorted(folder.iterdir())
+        paths = [path for path in entries if path.is_file()]
+        inner = {path.name: _photos_in(path) for path in entries if path.is_dir()}
     except OSError as error:
         fault = f"cannot be read ({error.strerror})"
         raise InputError(folder, fault, "Check its permissions.") from error
-    named = {real_path(path) for path in (given.video, given.from_colmap) if path is not None}
+    own = (given.video, given.from_colmap, given.masks, *given.named)
+    named = {real_path(path) for path in own if path is not None}
     seen = [path for path in paths if not path.name.startswith(".")]
     unread = tuple((path.name, why) for path in seen if (why := why_unread(path)))
     known = {name for name, _ in unread}
@@ -67,6 +74,19 @@ def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...
         notes.append(f"{POSITIONS}: give it with --positions to use the positions in it")
         rest.remove(POSITIONS)
     if rest:
-        more = f" and {len(rest) - MOST_NAMED} more" if len(rest) > MOST_NAMED else ""
-        notes.append(f"no photos, not used: {', '.join(rest[:MOST_NAMED])}{more}")
+        notes.append(f"no photos, not used: {', '.join(rest)}")
+    named_folders = {path.name for path in entries if real_path(path) in named}
+    notes += [
+        f"{name}/ has {count} photos, which are not used: give it, or those of all cameras by --rig"
+        for name, count in inner.items()
+        if count and name not in named_folders and not name.startswith(".")
+    ]
     return unread, tuple(notes)
+
+
+def _photos_in(folder: Path) -> int:
+    """How many photos lie in a folder; 0 where it cannot be read."""
+    try:
+        return sum(path.suffix.lower() in photo_suffixes() for path in folder.iterdir())
+    except OSError:
+        return 0

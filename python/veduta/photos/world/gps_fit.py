@@ -174,6 +174,5 @@ def _believed(level: _Level, inliers: float, count: int) -> tuple[bool, str]:
         )
     return True, (
         f"{count} positions, {level.sd_m:.1f} m off each way; direction and scale are known to"
-        f" {np.rad2deg(level.turn_sd):.1f} degrees and {100 * level.turn_sd:.1f} %; up is inferred"
-        " from the photos"
+        f" {np.rad2deg(level.turn_sd):.1f} degrees and {100 * level.turn_sd:.1f} %"
     )

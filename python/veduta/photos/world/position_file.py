@@ -13,13 +13,17 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
 
+import numpy as np
 import pyproj
 
 from veduta.imaging.shot import Position
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.world.control_file import crs_of_head, lines_of
+from veduta.photos.world.control_plausible import require_plausible
 from veduta.run.errors import InputError
 
+FAR_KM = 1.0
+"""No receiver is so far off: then the file, or its CRS, is of another place."""
 _LINE = "Write it as: photo x y [z]."
 _NAMED = re.compile(
     r"""^(?:"(?P<quoted>[^"]+)"|(?P<name>.+?\.[A-Za-z]{3,4})|(?P<word>\S+))\s+(?P<rest>[-+\d.].*)$"""
@@ -38,18 +42,20 @@ def read_positions(path: Path) -> PhotoPositions:
     """InputError with the line that is wrong."""
     lines = lines_of(path)
     crs = crs_of_head(path, lines[0][1])
+    rows = [(number, *_parts(path, number, line)) for number, line in lines[1:]]
+    if not rows:
+        raise InputError(path, "has no positions", _LINE)
+    places = {name: np.array([*values[:2], 0.0]) for _, name, values in rows}
+    require_plausible(path, crs, places)
     to_world = pyproj.Transformer.from_crs(crs, "EPSG:4326", always_xy=True)
     found: dict[str, Position] = {}
-    for number, line in lines[1:]:
-        name, values = _parts(path, number, line)
+    for number, name, values in rows:
         longitude, latitude = to_world.transform(values[0], values[1])
         if not (math.isfinite(longitude) and abs(latitude) <= 90.0 and abs(longitude) <= 180.0):
             fault = f"line {number} lies where {crs} has no place: {values[0]:g} {values[1]:g}"
             raise InputError(path, fault, "Write east before north, longitude before latitude.")
         altitude = values[2] if len(values) > 2 else None
         found[name] = Position(float(latitude), float(longitude), altitude)
-    if not found:
-        raise InputError(path, "has no positions", _LINE)
     return PhotoPositions(path, found)
 
 
@@ -96,4 +102,26 @@ def at_positions(
     told = [f"{positions.path.name}: {name} is not among the photos" for name in strange[:5]]
     named = len(positions.by_name) - len(strange)
     told.append(f"positions of {named} photos are from {positions.path.name}")
+    told += _contradicted(photos, placed, positions.path.name)
     return placed, told
+
+
+def _degrees(position: Position) -> tuple[float, float]:
+    return position.longitude_deg, position.latitude_deg
+
+
+def _contradicted(
+    before: Sequence[PhotoRecord], after: Sequence[PhotoRecord], file: str
+) -> list[str]:
+    """What to say where a file puts photos far from where their EXIF has them."""
+    geod = pyproj.Geod(ellps="WGS84")
+    away_m = [
+        geod.inv(*_degrees(old.position), *_degrees(new.position))[2]
+        for old, new in zip(before, after, strict=True)
+        if old.position is not None and new.position is not None
+    ]
+    away_km = float(np.median(away_m)) / 1000.0 if away_m else 0.0
+    if away_km < FAR_KM:
+        return []
+    hint = "check its CRS, and that longitude stands before latitude"
+    return [f"{file}: its positions lie {away_km:.0f} km from those in the photos' EXIF; {hint}"]

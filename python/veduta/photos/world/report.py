@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from veduta.photos.cameras.component import component_name
 from veduta.photos.world.georeference import Fit, Georeference
 from veduta.photos.world.georeferencing import Georeferenced, method_name
 from veduta.run.page import Table
@@ -62,7 +63,7 @@ def georef_notes(found: Sequence[Georeferenced]) -> list[str]:
     """What was tried, believed or not, and why."""
     notes = []
     for number, one in enumerate(found):
-        whose = f"component {number}: " if len(found) > 1 else ""
+        whose = f"component {component_name(number)}: " if len(found) > 1 else ""
         for tried in one.tried:
             state = "laid into the world by" if tried.accepted else "refused:"
             notes.append(f"{whose}{state} {method_name(tried.method)}: {tried.why}")
@@ -112,5 +113,5 @@ def _residuals(number: int, tried: Georeference, fit: Fit) -> Table:
     what = {"model": "facade", "gps": "photo", "gcp": "control point"}[tried.method]
     state = "" if tried.accepted else ", refused"
     rows = [(one.name, round(one.distance_m, 3)) for one in fit.residuals[:MOST_ROWS]]
-    title = f"What is left at each {what} (component {number}{state})"
+    title = f"What is left at each {what} (component {component_name(number)}{state})"
     return Table(title, (what, "m"), rows, for_experts=tried.method == "gps")

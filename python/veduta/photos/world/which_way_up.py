@@ -29,6 +29,7 @@ AGREE_RAD = float(np.deg2rad(10.0))
 """Up of each photo by its gimbal, from the mean of all: beyond, the tags are of something else."""
 SEVERAL_WAYS, TOPS_AGREE = 0.25, 0.85
 """Of the rows of photos, how far they spread beside one way; length of their columns' mean."""
+GROUND = "the ground, which is taken for level"
 GROUND_RAD = float(np.deg2rad(2.0))
 """How level ground is, where nothing else says what is."""
 
@@ -55,16 +56,18 @@ def which_way_up(component: Component, photos: Sequence[PhotoRecord]) -> Compone
     upright: how well that is known, where photos look down; walls and edges are asked elsewhere.
     """
     structure = component.structure
-    found = _by_gps(structure, photos) or _by_gimbal(structure, photos)
+    found, by = _by_gps(structure, photos), "the positions of GPS"
+    if found is None:
+        found, by = _by_gimbal(structure, photos), "the gimbal of the camera"
     if found is None:
         if not looks_down(structure):
             return component
         sd = float(np.rad2deg(GROUND_RAD))
-        return replace(component, upright=Upright(np.array([0.0, 0.0, 1.0]), 0.0, sd))
+        return replace(component, upright=Upright(np.array([0.0, 0.0, 1.0]), 0.0, sd, GROUND))
     up, sd_rad = found
     turned = oriented(structure, up)
     moved = float(np.rad2deg(np.arccos(np.clip(up[2], -1.0, 1.0))))
-    upright = Upright(up, moved, float(np.rad2deg(sd_rad)))
+    upright = Upright(up, moved, float(np.rad2deg(sd_rad)), by)
     return replace(
         component, structure=turned.structure, level_deg=turned.level_deg, upright=upright
     )
