@@ -1,7 +1,8 @@
-"""Reading the faces and colours of a COLLADA file, whoever wrote it.
+"""Reading the faces, colours and pictures of a COLLADA file, whoever wrote it.
 
 https://www.khronos.org/files/collada_spec_1_4.pdf - geometry, the nodes of the scene with their
-transforms, the colours of materials, unit and up axis. Skins, cameras and textures are not read.
+transforms, the colours and pictures of materials (`dae_materials`), unit and up axis. Skins and
+cameras are not read.
 """
 
 from __future__ import annotations
@@ -15,7 +16,16 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from veduta.formats.obj_read import LARGEST_BYTES, MOST_CORNERS, ReadMesh
+from veduta.formats.dae_materials import (
+    DaeMaterial,
+    child_of,
+    children_of,
+    first_below,
+    material_of,
+    reference_of,
+    tag_of,
+)
+from veduta.formats.obj_read import LARGEST_BYTES, MOST_CORNERS, MOST_REPEATS, ReadMesh
 from veduta.place.material import Colour
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -33,12 +43,16 @@ _FACES = ("triangles", "polylist", "polygons")
 
 @dataclass(frozen=True)
 class _Faces:
-    """Of one geometry: points (v, 3), corners and sizes of faces, and the symbol of a material."""
+    """Of one geometry: points (v, 3), corners and sizes of faces, and the symbol of a material.
+
+    uv: (c, 2) the places of the corners on pictures, from the lower left, by the sets of the file.
+    """
 
     points: NDArray[np.float64]
     corners: NDArray[np.int64]
     sizes: NDArray[np.int64]
     symbol: str
+    uv: dict[int, NDArray[np.float32]]
 
 
 @dataclass
@@ -46,6 +60,7 @@ class _Scene:
     """The elements of a file by their ids, and what is read of them so far."""
 
     by_id: dict[str, Any]
+    path: Path
     geometries: dict[str, list[_Faces]] = field(default_factory=dict)
     nodes: int = 0
     corners: int = 0
@@ -61,18 +76,18 @@ def read_dae_mesh(path: Path, most_corners: int = MOST_CORNERS) -> ReadMesh:
     parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
     try:
         root = etree.fromstring(data, parser)
-        if _tag(root) != "COLLADA":
+        if tag_of(root) != "COLLADA":
             raise ValueError("it is XML of another kind")
-        return _mesh(root, most_corners)
+        return _mesh(root, path, most_corners)
     except (etree.XMLSyntaxError, ValueError, KeyError, IndexError, OverflowError) as error:
         raise InputError(path, f"is no mesh that can be read ({error})", _REMEDY) from error
 
 
-def _mesh(root: Any, most_corners: int) -> ReadMesh:
-    scene = _Scene({one.get("id"): one for one in root.iter() if one.get("id")})
-    unit = _first(root, "unit")
+def _mesh(root: Any, path: Path, most_corners: int) -> ReadMesh:
+    scene = _Scene({one.get("id"): one for one in root.iter() if one.get("id")}, path)
+    unit = first_below(root, "unit")
     metres = 1.0 if unit is None else float(unit.get("meter", "1"))
-    axis = _first(root, "up_axis")
+    axis = first_below(root, "up_axis")
     up = _Y_UP.get("Y_UP" if axis is None else (axis.text or "").strip(), _Y_UP["Y_UP"])
     turn = np.eye(4)
     turn[:3, :3] = metres * up
@@ -87,7 +102,7 @@ def _mesh(root: Any, most_corners: int) -> ReadMesh:
     return _joined(pieces)
 
 
-_Piece = tuple[_Faces, NDArray[np.float64], tuple[str, Colour | None]]
+_Piece = tuple[_Faces, NDArray[np.float64], DaeMaterial]
 
 
 def _joined(pieces: list[_Piece]) -> ReadMesh:
@@ -98,8 +113,9 @@ def _joined(pieces: list[_Piece]) -> ReadMesh:
         raise ValueError("it has points that are no numbers")
     starts = np.cumsum([0, *(len(faces.points) for faces, _, _ in pieces)])
     sizes = np.concatenate([faces.sizes for faces, _, _ in pieces])
-    number_of: dict[tuple[str, Colour | None], int] = {}
-    rows = [number_of.setdefault(material, len(number_of)) for _, _, material in pieces]
+    number_of: dict[tuple[str, Colour | None, str | None], int] = {}
+    rows = [number_of.setdefault(material.look, len(number_of)) for _, _, material in pieces]
+    pictures = tuple(picture for _, _, picture in number_of)
     corners = [
         faces.corners + start for (faces, _, _), start in zip(pieces, starts[:-1], strict=True)
     ]
@@ -110,23 +126,36 @@ def _joined(pieces: list[_Piece]) -> ReadMesh:
         face_material=np.repeat(rows, [len(faces.sizes) for faces, _, _ in pieces]).astype(
             np.int32
         ),
-        materials=tuple(number_of),
+        materials=tuple((name, colour) for name, colour, _ in number_of),
         face_group=np.zeros(len(sizes), dtype=np.int32),
         groups=("",),
+        uv=np.concatenate([_uv(faces, own) for faces, _, own in pieces]) if any(pictures) else None,
+        pictures=pictures,
+        notes=tuple(dict.fromkeys(own.note for _, _, own in pieces if own.note)),
     )
+
+
+def _uv(faces: _Faces, material: DaeMaterial) -> NDArray[np.float32]:
+    """(c, 2) the places on the material's picture: of the set that it names, or else the first."""
+    first = min(faces.uv, default=0)
+    number = first if material.uv_set is None else material.uv_set
+    found = faces.uv.get(number, faces.uv.get(first))
+    if found is None:
+        return np.full((len(faces.corners), 2), np.nan, dtype=np.float32)
+    return found
 
 
 def _pieces(root: Any, scene: _Scene, turn: NDArray[np.float64]) -> Iterator[_Piece]:
     """The faces of the scene that is shown; of all geometries where the file has none."""
-    shown = next((one for one in root.iter() if _tag(one) == "instance_visual_scene"), None)
+    shown = next((one for one in root.iter() if tag_of(one) == "instance_visual_scene"), None)
     if shown is not None:
-        for node in _children(scene.by_id[_reference(shown)], "node"):
+        for node in children_of(scene.by_id[reference_of(shown)], "node"):
             yield from _of_node(node, scene, turn, 0)
         return
     for geometry in root.iter():
-        if _tag(geometry) == "geometry":
+        if tag_of(geometry) == "geometry":
             for faces in _faces_of(geometry, scene):
-                yield faces, turn, _material(None, faces.symbol, scene)
+                yield faces, turn, material_of(None, faces.symbol, scene.by_id, scene.path)
 
 
 def _of_node(node: Any, scene: _Scene, above: NDArray[np.float64], depth: int) -> Iterator[_Piece]:
@@ -135,21 +164,21 @@ def _of_node(node: Any, scene: _Scene, above: NDArray[np.float64], depth: int) -
         raise ValueError("its nodes are too many, or hold themselves")
     turn = above @ _transform(node)
     for child in node:
-        tag = _tag(child)
+        tag = tag_of(child)
         if tag == "node":
             yield from _of_node(child, scene, turn, depth + 1)
         elif tag == "instance_node":
-            yield from _of_node(scene.by_id[_reference(child)], scene, turn, depth + 1)
+            yield from _of_node(scene.by_id[reference_of(child)], scene, turn, depth + 1)
         elif tag == "instance_geometry":
-            for faces in _faces_of(scene.by_id[_reference(child)], scene):
-                yield faces, turn, _material(child, faces.symbol, scene)
+            for faces in _faces_of(scene.by_id[reference_of(child)], scene):
+                yield faces, turn, material_of(child, faces.symbol, scene.by_id, scene.path)
 
 
 def _transform(node: Any) -> NDArray[np.float64]:
     """(4, 4) of a node, its steps in their order."""
     found = np.eye(4)
     for child in node:
-        tag, step = _tag(child), np.eye(4)
+        tag, step = tag_of(child), np.eye(4)
         if tag not in ("matrix", "translate", "scale", "rotate"):
             continue
         numbers = _numbers(child)
@@ -181,40 +210,46 @@ def _about(axis: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
 def _faces_of(geometry: Any, scene: _Scene) -> list[_Faces]:
     name = geometry.get("id") or str(id(geometry))
     if name not in scene.geometries:
-        mesh = _child(geometry, "mesh")
-        own = [] if mesh is None else [one for one in mesh if _tag(one) in _FACES]
+        mesh = child_of(geometry, "mesh")
+        own = [] if mesh is None else [one for one in mesh if tag_of(one) in _FACES]
         scene.geometries[name] = [faces for one in own if (faces := _faces(one, scene)) is not None]
     return scene.geometries[name]
 
 
 def _faces(element: Any, scene: _Scene) -> _Faces | None:
     inputs = [
-        (one.get("semantic"), int(one.get("offset", "0")), _reference(one))
-        for one in _children(element, "input")
+        (
+            one.get("semantic"),
+            int(one.get("offset", "0")),
+            reference_of(one),
+            int(one.get("set", "0")),
+        )
+        for one in children_of(element, "input")
     ]
-    stride = max((offset for _, offset, _ in inputs), default=0) + 1
-    corner = next(((offset, to) for what, offset, to in inputs if what == "VERTEX"), None)
+    stride = max((offset for _, offset, *_ in inputs), default=0) + 1
+    corner = next(((offset, to) for what, offset, to, _ in inputs if what == "VERTEX"), None)
     if corner is None:
         raise ValueError("its faces name no vertices")
     offset, vertices = corner
     position = next(
         (
-            _reference(one)
-            for one in _children(scene.by_id[vertices], "input")
+            reference_of(one)
+            for one in children_of(scene.by_id[vertices], "input")
             if one.get("semantic") == "POSITION"
         ),
         None,
     )
     if position is None:
         raise ValueError("its vertices have no positions")
-    points = _points(scene.by_id[position], scene)
-    lists = [_numbers(one, np.int64) for one in _children(element, "p")]
-    rows = [one.reshape(-1, stride)[:, offset] for one in lists if len(one)]
+    points = _rows(scene.by_id[position], scene, 3)
+    lists = [_numbers(one, np.int64) for one in children_of(element, "p")]
+    rows = [one.reshape(-1, stride) for one in lists if len(one)]
     if not rows:
         return None
-    corners = np.concatenate(rows)
-    counts = _child(element, "vcount")
-    if _tag(element) == "triangles":
+    every = np.concatenate(rows)
+    corners = every[:, offset]
+    counts = child_of(element, "vcount")
+    if tag_of(element) == "triangles":
         sizes = np.full(len(corners) // 3, 3, dtype=np.int64)
     elif counts is not None:
         sizes = _numbers(counts, np.int64)
@@ -224,66 +259,39 @@ def _faces(element: Any, scene: _Scene) -> _Faces | None:
         raise ValueError("its faces do not fit their corners")
     if corners.min() < 0 or corners.max() >= len(points):
         raise ValueError("a face names a point that is not there")
-    return _Faces(points, corners, sizes, element.get("material", ""))
+    uv = {
+        number: _places(scene.by_id[to], every[:, place], scene)
+        for what, place, to, number in inputs
+        if what == "TEXCOORD"
+    }
+    return _Faces(points, corners, sizes, element.get("material", ""), uv)
 
 
-def _points(source: Any, scene: _Scene) -> NDArray[np.float64]:
-    accessor = _first(source, "accessor")
+def _places(source: Any, rows: NDArray[np.int64], scene: _Scene) -> NDArray[np.float32]:
+    """(c, 2) places on pictures; NaN where the file has none or one too far off."""
+    known = _rows(source, scene, 2)
+    is_known = (rows >= 0) & (rows < len(known))
+    found = np.full((len(rows), 2), np.nan)
+    found[is_known] = known[rows[is_known]]
+    found[~(np.abs(found) < MOST_REPEATS).all(axis=1)] = np.nan
+    return found.astype(np.float32)
+
+
+def _rows(source: Any, scene: _Scene, width: int) -> NDArray[np.float64]:
+    """(n, width) the numbers of a source: points, or places on pictures."""
+    accessor = first_below(source, "accessor")
     if accessor is None:
         raise ValueError("its points have no accessor")
-    values = _numbers(scene.by_id[_reference(accessor, "source")])
+    values = _numbers(scene.by_id[reference_of(accessor, "source")])
     stride, first = int(accessor.get("stride", "1")), int(accessor.get("offset", "0"))
     count = int(accessor.get("count", "0"))
-    if stride < 3 or count < 0 or first < 0 or first + stride * count > len(values):
+    if stride < width or count < 0 or first < 0 or first + stride * count > len(values):
         raise ValueError("its points do not fit their numbers")
     found: NDArray[np.float64] = values[first : first + stride * count].reshape(count, stride)[
-        :, :3
+        :, :width
     ]
     return found
 
 
-def _material(instance: Any, symbol: str, scene: _Scene) -> tuple[str, Colour | None]:
-    """Name and diffuse colour of what an instance binds to the symbol of faces."""
-    target = symbol
-    for one in () if instance is None else instance.iter():
-        if _tag(one) == "instance_material" and one.get("symbol") == symbol:
-            target = _reference(one, "target")
-    material = scene.by_id.get(target)
-    if material is None or _tag(material) != "material":
-        return symbol, None
-    name = material.get("name") or target
-    effect = _child(material, "instance_effect")
-    found = None if effect is None else scene.by_id.get(_reference(effect))
-    for diffuse in () if found is None else found.iter():
-        colour = _child(diffuse, "color") if _tag(diffuse) == "diffuse" else None
-        if colour is not None:
-            red, green, blue = np.clip(_numbers(colour)[:3], 0.0, 1.0).round(4).tolist()
-            return name, (red, green, blue)
-    return name, None
-
-
 def _numbers(element: Any, kind: Any = np.float64) -> NDArray[Any]:
     return np.array((element.text or "").split(), dtype=kind)
-
-
-def _reference(element: Any, name: str = "url") -> str:
-    text = element.get(name) or element.get("source") or ""
-    if not text.startswith("#"):
-        raise ValueError(f"it refers to another file ({text[:80]})")
-    return str(text[1:])
-
-
-def _tag(element: Any) -> str:
-    return str(element.tag).rpartition("}")[2]
-
-
-def _children(element: Any, tag: str) -> list[Any]:
-    return [one for one in element if _tag(one) == tag]
-
-
-def _child(element: Any, tag: str) -> Any:
-    return next(iter(_children(element, tag)), None)
-
-
-def _first(root: Any, tag: str) -> Any:
-    return next((one for one in root.iter() if _tag(one) == tag), None)

@@ -86,6 +86,8 @@ class GltfMaterials:
             entry["extras"] = {"veduta": told}
             if material.texture.cut:
                 entry |= {"alphaMode": "MASK", "alphaCutoff": 0.5}
+        if material.two_sided:
+            entry["doubleSided"] = True
         if material.unlit:
             entry["extensions"] = {UNLIT: {}}
             if UNLIT not in self._root.setdefault("extensionsUsed", []):

@@ -1,17 +1,20 @@
-"""Reading meshes from Wavefront OBJ files with the colours of their MTL files.
+"""Reading meshes from Wavefront OBJ files with the colours and pictures of their MTL files.
 
-Points, faces, materials and groups count; normals and texture coordinates do not.
+Points, faces, texture coordinates, materials and groups count; normals do not.
 """
 
 from __future__ import annotations
 
+import math
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.formats.model_pictures import beside
+from veduta.formats.mtl_read import MtlMaterial, read_mtl
 from veduta.place.material import Colour
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -20,6 +23,10 @@ from veduta.run.names import real_path
 LARGEST_BYTES = 32 * 2**20
 MOST_CORNERS = 600_000
 _REMEDY = "Write it again with the program that it comes from, or use a simpler mesh."
+MOST_REPEATS = 1e5
+"""Farther from the first picture than so many, single precision tells no place on it."""
+NOWHERE = (math.nan, math.nan)
+"""The texture coordinates of a corner that has none."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +36,9 @@ class ReadMesh:
     points: (v, 3) float64. corners: (c,) uint32. offsets: (f + 1,) int64, first corner of each
     face. face_material: (f,) int32, place in `materials`: names with colours (sRGB, 0..1; None
     where the file has none). face_group: (f,) int32, place in `groups`: names of objects or groups.
+    uv: (c, 2) float32, where each corner lies on the picture of its material, from the lower left;
+    NaN where that is not told, None where no material has a picture. pictures: that of each
+    material as `model_pictures` names it, or None. notes: what of them could not be had.
     """
 
     points: NDArray[np.float64]
@@ -38,68 +48,143 @@ class ReadMesh:
     materials: tuple[tuple[str, Colour | None], ...]
     face_group: NDArray[np.int32]
     groups: tuple[str, ...]
+    uv: NDArray[np.float32] | None
+    pictures: tuple[str | None, ...]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass
+class _Read:
+    """What was read of a file so far; corners and texture places face by face."""
+
+    points: list[list[float]] = field(default_factory=list)
+    places: list[tuple[float, float]] = field(default_factory=list)
+    corners: list[int] = field(default_factory=list)
+    uv: list[tuple[float, float]] = field(default_factory=list)
+    sizes: list[int] = field(default_factory=list)
+    material: list[int] = field(default_factory=list)
+    group: list[int] = field(default_factory=list)
+    names: dict[str, int] = field(default_factory=dict)
+    groups: dict[str, int] = field(default_factory=dict)
+    named: str = ""
+    current: str = ""
+    libraries: list[str] = field(default_factory=list)
+
+    def line(self, word: str, rest: str) -> None:
+        """Take in a line; ValueError says what is wrong with it."""
+        if word == "v":
+            x, y, z = (float(part) for part in rest.split()[:3])
+            self.points.append([x, y, z])
+        elif word == "vt":
+            self.places.append(_place(rest))
+        elif word == "f":
+            self._face(rest.split())
+        elif word in ("o", "g"):
+            self.named = rest.strip()
+        elif word == "usemtl":
+            self.current = rest.strip()
+        elif word == "mtllib":
+            self.libraries.append(rest.strip())
+
+    def _face(self, parts: list[str]) -> None:
+        if len(parts) < 3:
+            raise ValueError("a face of fewer than three corners")
+        for part in parts:
+            point, _, rest = part.partition("/")
+            self.corners.append(_corner(point, len(self.points)))
+            self.uv.append(self._uv(rest.partition("/")[0]))
+        self.sizes.append(len(parts))
+        self.material.append(self.names.setdefault(self.current, len(self.names)))
+        self.group.append(self.groups.setdefault(self.named, len(self.groups)))
+
+    def _uv(self, part: str) -> tuple[float, float]:
+        """A number that leads nowhere is no fault: the face is there without its picture."""
+        try:
+            given = int(part)
+            return self.places[given - 1 if given > 0 else given] if given else NOWHERE
+        except (ValueError, IndexError):
+            return NOWHERE
 
 
 def read_obj(path: Path, root: Path) -> ReadMesh:
-    """The mesh; material files are read below `root` alone. InputError says what is wrong."""
-    lines = _text(path).splitlines()
-    points: list[list[float]] = []
-    corners: list[int] = []
-    sizes: list[int] = []
-    material: list[int] = []
-    group: list[int] = []
-    names: dict[str, int] = {}
-    groups: dict[str, int] = {}
-    named = ""
-    colours: dict[str, Colour] = {}
-    current = ""
-    for number, line in enumerate(lines, start=1):
+    """The mesh; material files and pictures are read below `root` alone.
+
+    InputError says what is wrong.
+    """
+    read = _Read()
+    for number, line in enumerate(_text(path).splitlines(), start=1):
         word, _, rest = line.strip().partition(" ")
         try:
-            if word == "v":
-                x, y, z = (float(part) for part in rest.split()[:3])
-                points.append([x, y, z])
-            elif word == "f":
-                face = [_corner(part, len(points)) for part in rest.split()]
-                if len(face) < 3:
-                    raise ValueError("a face of fewer than three corners")
-                corners += face
-                sizes.append(len(face))
-                material.append(names.setdefault(current, len(names)))
-                group.append(groups.setdefault(named, len(groups)))
-            elif word in ("o", "g"):
-                named = rest.strip()
-            elif word == "usemtl":
-                current = rest.strip()
-            elif word == "mtllib":
-                colours |= _colours(path.parent / rest.strip(), root)
+            read.line(word, rest)
         except ValueError as error:
             raise InputError(path, f"line {number}: {error}", _REMEDY) from error
-        if len(corners) > MOST_CORNERS:
+        if len(read.corners) > MOST_CORNERS:
             raise InputError(path, f"has more than {MOST_CORNERS} corners of faces", _REMEDY)
-    if not sizes:
+    if not read.sizes:
         raise InputError(path, "has no faces", _REMEDY)
-    found = np.array(points, dtype=np.float64)
-    if not np.isfinite(found).all():
+    points = np.array(read.points, dtype=np.float64)
+    if not np.isfinite(points).all():
         raise InputError(path, "has points that are no numbers", _REMEDY)
+    materials, folders = _materials(read.libraries, path, root)
+    known = [materials.get(name, MtlMaterial()) for name in read.names]
+    found = [
+        _picture(own, folders.get(name, path.parent), root)
+        for name, own in zip(read.names, known, strict=True)
+    ]
+    lost = zip(read.names, known, found, strict=True)
     return ReadMesh(
-        points=found,
-        corners=np.array(corners, dtype=np.uint32),
-        offsets=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64),
-        face_material=np.array(material, dtype=np.int32),
-        materials=tuple((name, colours.get(name)) for name in names),
-        face_group=np.array(group, dtype=np.int32),
-        groups=tuple(groups),
+        points=points,
+        corners=np.array(read.corners, dtype=np.uint32),
+        offsets=np.concatenate([[0], np.cumsum(read.sizes)]).astype(np.int64),
+        face_material=np.array(read.material, dtype=np.int32),
+        materials=tuple((name, own.colour) for name, own in zip(read.names, known, strict=True)),
+        face_group=np.array(read.group, dtype=np.int32),
+        groups=tuple(read.groups),
+        uv=_laid(read, known) if any(found) else None,
+        pictures=tuple(found),
+        notes=tuple(
+            lost_picture(own.picture, name) for name, own, at in lost if own.picture and not at
+        ),
     )
+
+
+def lost_picture(picture: str, material: str) -> str:
+    """What to say of a picture that is not there."""
+    named = f"the picture {picture[:200]} of its material {material[:200]}"
+    return f"{named} does not lie in its folder or below: the colour alone is shown"
+
+
+def _picture(material: MtlMaterial, folder: Path, root: Path) -> str | None:
+    found = None if material.picture is None else beside(material.picture, folder, root)
+    return None if found is None else str(found)
+
+
+def _laid(read: _Read, materials: list[MtlMaterial]) -> NDArray[np.float32]:
+    """(c, 2) the places of corners on the pictures of their materials, as these are laid."""
+    uv = np.array(read.uv, dtype=np.float64)
+    row = np.repeat(read.material, read.sizes)
+    stretch = np.array([one.stretch for one in materials])[row]
+    shift = np.array([one.shift for one in materials])[row]
+    laid: NDArray[np.float32] = (uv * stretch + shift).astype(np.float32)
+    return laid
 
 
 def _corner(part: str, count: int) -> int:
     """The number of a point, from 0; OBJ counts from 1, or backwards from -1."""
-    given = int(part.partition("/")[0])
+    given = int(part)
     number = given - 1 if given > 0 else count + given
     if given == 0 or not 0 <= number < count:
         raise ValueError(f"a face names point {given} of {count}")
     return number
+
+
+def _place(rest: str) -> tuple[float, float]:
+    """The place on a picture that `vt` tells; nowhere, where it is no place."""
+    try:
+        u, v = (float(part) for part in [*rest.split()[:2], "0"][:2])
+    except ValueError:
+        return NOWHERE
+    return (u, v) if abs(u) < MOST_REPEATS and abs(v) < MOST_REPEATS else NOWHERE
 
 
 def _text(path: Path) -> str:
@@ -110,20 +195,29 @@ def _text(path: Path) -> str:
         raise InputError(path, f"cannot be read ({error.strerror})", "Check its name.") from error
 
 
-def _colours(path: Path, root: Path) -> dict[str, Colour]:
-    """The diffuse colours of a material file; none where it is missing or lies elsewhere."""
-    real = str(real_path(path))
-    if not os.path.isfile(real) or os.path.commonpath([str(real_path(root)), real]) != str(
-        real_path(root)
-    ):
-        return {}
-    found: dict[str, Colour] = {}
-    name = ""
-    for line in _text(Path(real)).splitlines():
-        word, _, rest = line.strip().partition(" ")
-        if word == "newmtl":
-            name = rest.strip()
-        elif word == "Kd" and name:
-            red, green, blue = (min(max(float(part), 0.0), 1.0) for part in rest.split()[:3])
-            found[name] = (red, green, blue)
-    return found
+def _materials(
+    libraries: list[str], path: Path, root: Path
+) -> tuple[dict[str, MtlMaterial], dict[str, Path]]:
+    """The materials of the files that an OBJ file names, and the folder that each is from."""
+    found: dict[str, MtlMaterial] = {}
+    folders: dict[str, Path] = {}
+    for name in dict.fromkeys(libraries):
+        real = _inside(path.parent / name, root)
+        if real is None:
+            continue
+        try:
+            own = read_mtl(_text(real).splitlines())
+        except ValueError as error:
+            raise InputError(real, f"has a colour that is none ({error})", _REMEDY) from error
+        found |= own
+        folders |= dict.fromkeys(own, real.parent)
+    return found, folders
+
+
+def _inside(path: Path, root: Path) -> Path | None:
+    """A file that lies in `root`; None where it is missing or lies elsewhere."""
+    if "\0" in str(path):
+        return None
+    real, inside = str(real_path(path)), str(real_path(root))
+    held = os.path.isfile(real) and os.path.commonpath([inside, real]) == inside
+    return Path(real) if held else None

@@ -11,16 +11,18 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.formats.building_faces import MOST_CORNERS
 from veduta.formats.dae_read import read_dae_mesh
 from veduta.formats.glb_mesh import read_glb_mesh
 from veduta.formats.gltf_chunks import BROKEN, glb_chunks, glb_content
 from veduta.formats.mesh_glb_read import read_model
+from veduta.formats.model_pictures import read_picture
 from veduta.formats.obj_read import ReadMesh, read_obj
 from veduta.formats.triangles_read import ReadPoints, read_triangles
 from veduta.place.features import feature_table
-from veduta.place.material import Material
+from veduta.place.material import Colour, Material, Texture
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
 from veduta.place.place import Cloud, Place
@@ -29,11 +31,13 @@ from veduta.run.errors import InputError
 from veduta.run.limits import limited
 
 _FARTHEST_M = 1e12
+_MOST_PIXELS = 2**28
+"""Of all pictures of a model together."""
 _CLASSES = {one.value: one for one in SemanticClass}
 
 
 def read_glb_place(path: Path) -> Place:
-    """A model of Veduta's as it was; of any other glTF its triangles and colours."""
+    """A model of Veduta's as it was; of any other glTF its triangles, colours and pictures."""
     place = Place(title=path.stem)
     if _is_model(path):
         place.add(read_model(path))
@@ -43,14 +47,14 @@ def read_glb_place(path: Path) -> Place:
 
 
 def read_obj_place(path: Path) -> Place:
-    """The polygons of an OBJ file, with the colours of its MTL files."""
+    """The polygons of an OBJ file, with the colours and pictures of its MTL files."""
     place = Place(title=path.stem)
     place.add(_part(read_obj(path, path.parent), path))
     return place
 
 
 def read_dae_place(path: Path) -> Place:
-    """The polygons of a COLLADA file's scene, with the colours of its materials."""
+    """The polygons of a COLLADA file's scene, with the colours and pictures of its materials."""
     place = Place(title=path.stem)
     place.add(_part(read_dae_mesh(path, MOST_CORNERS), path))
     return place
@@ -93,22 +97,60 @@ def _part(read: ReadMesh, path: Path) -> Part:
     count = len(read.offsets) - 1
     names = [name or f"material {row + 1}" for row, (name, _) in enumerate(read.materials)]
     rows = _unique([(_class_of(name), Provenance.MEASURED, name) for name in names])
+    textures, faults = _textures(read.pictures)
     return Part(
         id=path.stem,
         positions_m=np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1).astype(
             np.float32
         ),
-        uv=np.zeros((len(points), 2), dtype=np.float32),
+        uv=_from_the_top(read),
         ring_offsets=read.offsets.astype(np.int64),
         polygon_offsets=np.arange(count + 1, dtype=np.int64),
         polygon_feature=read.face_material.astype(np.int32),
         polygon_material=read.face_material.astype(np.int32),
         features=feature_table(path.stem, rows),
         materials=tuple(
-            Material(name, colour or (1.0, 1.0, 1.0))
-            for name, (_, colour) in zip(names, read.materials, strict=True)
+            _material(name, colour, textures.get(picture or ""))
+            for name, (_, colour), picture in zip(names, read.materials, read.pictures, strict=True)
         ),
+        notes=tuple(dict.fromkeys([*read.notes, *faults])),
     )
+
+
+def _material(name: str, colour: Colour | None, texture: Texture | None) -> Material:
+    is_cut = texture is not None and texture.cut
+    return Material(name, colour or (1.0, 1.0, 1.0), texture=texture, two_sided=is_cut)
+
+
+def _from_the_top(read: ReadMesh) -> NDArray[np.float32]:
+    """(c, 2) the places of corners on pictures as parts have them: from the upper left."""
+    if read.uv is None:
+        return np.zeros((len(read.corners), 2), dtype=np.float32)
+    uv = np.nan_to_num(read.uv, nan=0.0)
+    uv[:, 1] = 1.0 - uv[:, 1]
+    return uv
+
+
+def _textures(pictures: Sequence[str | None]) -> tuple[dict[str, Texture], list[str]]:
+    """The pictures that can be read, and what is wrong with the others."""
+    found: dict[str, Texture] = {}
+    faults: list[str] = []
+    room = _MOST_PIXELS
+    for picture in dict.fromkeys(pictures):
+        if picture is None:
+            continue
+        try:
+            texture = read_picture(picture)
+        except InputError as error:
+            faults.append(f"a picture is not shown, but the colour of its material: {error}")
+            continue
+        room -= texture.invented.size
+        if room < 0:
+            told = f"its pictures have more than {_MOST_PIXELS} pixels together"
+            faults.append(f"{told}: of the others the colours of the materials are shown")
+            break
+        found[picture] = texture
+    return found, faults
 
 
 def _unique(

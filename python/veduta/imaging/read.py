@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
-from veduta.imaging.colour import READABLE_MODES, srgb_on_white
+from veduta.imaging.colour import OTHER_MODES, READABLE_MODES, srgb_on_white
 from veduta.imaging.deep import stretched
 from veduta.imaging.exif import CameraTags, FocalSource, focal_px_from_mm35, read_camera_tags
 from veduta.imaging.heic import heic_formats
@@ -29,6 +29,8 @@ MAX_SIDE_PX = 30_000
 MAX_FILE_BYTES = 1_000_000_000
 FORMATS = ("JPEG", "PNG", "TIFF", "WEBP")
 OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
+MODEL_FORMATS = ("BMP", "TGA")
+"""What the pictures of models may be besides."""
 SUFFIXES = (".jpg", ".jpeg", ".jpe", ".jfif", ".mpo", ".png", ".tif", ".tiff", ".webp")
 
 _HEIC_BRANDS = (b"heic", b"heix", b"mif1", b"msf1", b"hevc")
@@ -118,6 +120,27 @@ def read_image(path: Path, other_format: str = OTHER_FORMAT) -> Photo:
     )
 
 
+def read_picture(path: Path, data: bytes) -> tuple[NDArray[np.uint8], NDArray[np.uint8] | None]:
+    """The picture of a model, as it is stored: (h, w, 3) uint8 sRGB, and its alpha (h, w) uint8.
+
+    data: its bytes; `path` is what faults name. No alpha (None) where it has none. InputError
+    where it cannot be read whole.
+    """
+    formats = (*FORMATS, *MODEL_FORMATS)
+    with _damage_is_input_error(path), _open_bounded(path, data, formats=formats) as image:
+        image.load()
+        if image.mode not in READABLE_MODES:
+            fault = f"its pixels are not 8 or 16 bit colours (stored as {image.mode!r})"
+            raise InputError(path, fault, "Save it as an 8-bit RGB image.")
+        shown, _ = stretched(image, data)
+        alpha = None
+        if shown.mode not in OTHER_MODES and shown.has_transparency_data:
+            shown = shown.convert("RGBA")
+            alpha = np.array(shown.getchannel("A"), dtype=np.uint8)
+            shown = shown.convert("RGB")
+        return srgb_on_white(shown)[0], alpha
+
+
 def image_size(path: Path) -> tuple[int, int]:
     """Width and height (px) of an image, upright, by its header; InputError as `read_image`."""
     try:
@@ -181,10 +204,16 @@ def _damage_is_input_error(path: Path) -> Iterator[None]:
         raise InputError(path, fault, "Copy or export the image again.") from error
 
 
-def _open_bounded(path: Path, data: bytes, other_format: str = OTHER_FORMAT) -> Image.Image:
+def _open_bounded(
+    path: Path,
+    data: bytes,
+    other_format: str = OTHER_FORMAT,
+    formats: tuple[str, ...] | None = None,
+) -> Image.Image:
     """Read the header; refuse other formats and images over the size bounds."""
+    allowed = formats or (*FORMATS, *heic_formats())
     try:
-        image = Image.open(io.BytesIO(data), formats=(*FORMATS, *heic_formats()))
+        image = Image.open(io.BytesIO(data), formats=allowed)
     except UnidentifiedImageError:
         raise InputError(path, _why_unidentified(data), other_format) from None
     width_px, height_px = image.size

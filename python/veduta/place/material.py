@@ -40,6 +40,7 @@ class Material:
     opacity: 0..1; below 1 one sees through it (glass).
     glow: 0..1; the share of its colour that it gives off by itself (a lamp's glass).
     unlit: whether it is seen as it is, whatever light falls on it (a picture of far away).
+    two_sided: whether it is seen from behind, too (leaves on a sheet).
     """
 
     name: str
@@ -50,3 +51,4 @@ class Material:
     opacity: float = 1.0
     glow: float = 0.0
     unlit: bool = False
+    two_sided: bool = False
