@@ -599,20 +599,23 @@ class GrammarRules:
             tuple[
                 tuple[float, float, float] | None,
                 tuple[float, float, float],
-                tuple[str, tuple[float, float]] | None,
+                tuple[str, tuple[float, float] | None, tuple[float, float, float]] | None,
             ]
         ]
         | None = None,
         labels: tuple[Sequence[str], Sequence[int], Sequence[str]] | None = None,
         in_plane: bool = False,
+        uv: _Array2[np.float32] | None = None,
     ) -> None:
         """Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
         face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
         `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
         face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
-        the shape is white, and the texture with its size in metres, or None.
+        the shape is white, and the texture or None: its name, its size in metres (None where it lies
+        by `uv`), and its mean colour (sRGB).
         `labels`: the name of each slot's material, the group of each face, and the names of the groups.
         `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into.
+        `uv`: (c, 2) where each of `corners` lies on its slot's picture, from the lower left.
         """
     def add_textures(self, sizes_m: dict[str, tuple[float, float]]) -> None:
         """Makes textures known that cover so many metres to the right and up: they lie in metres where

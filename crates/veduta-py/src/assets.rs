@@ -6,15 +6,17 @@ use std::sync::Arc;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use veduta_geometry::solid::Mesh;
-use veduta_grammar::shape::{Asset, Labels, Slot};
+use veduta_grammar::shape::{Asset, Labels, Lies, Slot, SlotTexture};
 
 pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 /// The metres that textures of a known size cover to the right and up.
 pub type Textures = HashMap<Arc<str>, [f64; 2]>;
 /// The colour (sRGB) of each slot or None for that of the shape, the colour where the shape has none,
-/// and the texture with the metres that it covers to the right and up.
+/// and the texture.
 pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3], Option<GivenTexture>)>;
-pub type GivenTexture = (String, [f64; 2]);
+/// The name of a texture, the metres that it covers to the right and up, or None where it lies by the
+/// coordinates of the asset's corners, and its mean colour (sRGB).
+pub type GivenTexture = (String, Option<[f64; 2]>, [f32; 3]);
 /// The name of each slot's material, the group of each face, and the names of the groups.
 pub type GivenLabels = (Vec<String>, Vec<u32>, Vec<String>);
 
@@ -51,9 +53,23 @@ pub fn asset_of(
     let slots = slots.into_iter().map(|(colour, fallback, texture)| Slot {
         colour,
         fallback,
-        texture: texture.map(|(name, size_m)| (name.into(), size_m)),
+        texture: texture.map(texture_of),
     });
     asset.with_slots(of_face?, slots.collect())
+}
+
+fn texture_of((name, size_m, mean): GivenTexture) -> SlotTexture {
+    SlotTexture {
+        name: name.into(),
+        lies: size_m.map_or(Lies::ByCorners { mean }, Lies::InMetres),
+    }
+}
+
+/// The rows of two numbers; None where they have another count.
+pub fn pairs(uv: &PyReadonlyArray2<'_, f32>) -> Option<Vec<[f32; 2]>> {
+    let rows = uv.as_array();
+    let pair = |row: usize| [rows[[row, 0]], rows[[row, 1]]];
+    (rows.ncols() == 2).then(|| (0..rows.nrows()).map(pair).collect())
 }
 
 /// The rows of three numbers; None where they have another count.

@@ -60,8 +60,7 @@ pub(crate) fn colour(
     let seen = match of_asset {
         Some((asset, slot)) => {
             let slot = &packed.assets[asset as usize].slots()[slot as usize];
-            let texture = slot.texture.as_ref().map(|(name, _)| name.as_ref());
-            textures.seen_as(slot.colour_in(look.colour), texture).0
+            textures.seen_in(slot, look.colour).0
         }
         None => textures.seen(look).0,
     };

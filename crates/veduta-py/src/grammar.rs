@@ -13,7 +13,9 @@ use veduta_grammar::engine::{
 };
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
-use crate::assets::{asset_of, labels_of, Assets, GivenLabels, GivenSlots, MissingAsset, Textures};
+use crate::assets::{
+    asset_of, labels_of, pairs, Assets, GivenLabels, GivenSlots, MissingAsset, Textures,
+};
 use crate::derivation::{overrides_of, GivenEdit};
 use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
 use crate::given::{values, Given};
@@ -161,10 +163,12 @@ impl GrammarRules {
     /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
     /// `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
     /// face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
-    /// the shape is white, and the texture with its size in metres, or None.
+    /// the shape is white, and the texture or None: its name, its size in metres (None where it lies
+    /// by `uv`), and its mean colour (sRGB).
     /// `labels`: the name of each slot's material, the group of each face, and the names of the groups.
     /// `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into.
-    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None, labels=None, in_plane=false))]
+    /// `uv`: (c, 2) where each of `corners` lies on its slot's picture, from the lower left.
+    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None, labels=None, in_plane=false, uv=None))]
     #[allow(clippy::too_many_arguments)] // columns
     fn add_asset(
         &self,
@@ -177,6 +181,7 @@ impl GrammarRules {
         slots: Option<GivenSlots>,
         labels: Option<GivenLabels>,
         in_plane: bool,
+        uv: Option<PyReadonlyArray2<'_, f32>>,
     ) -> PyResult<()> {
         let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
         let (corners, offsets) = (corners.as_slice()?, offsets.as_slice()?);
@@ -186,6 +191,10 @@ impl GrammarRules {
             Some(labels) => asset.with_labels(labels_of(labels)).ok_or_else(fault)?,
             None => asset,
         };
+        if let Some(uv) = uv {
+            let own = pairs(&uv).ok_or_else(fault)?;
+            asset = asset.with_uv(own).ok_or_else(fault)?;
+        }
         asset.in_plane = in_plane;
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));

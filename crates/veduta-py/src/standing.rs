@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use veduta_geometry::{triangulate_sound, PolygonSet};
 use veduta_grammar::engine::{Look, Packed};
-use veduta_grammar::shape::{Asset, AssetFaces, Slot};
+use veduta_grammar::shape::{Asset, AssetFaces, Lies, Slot};
 use veduta_tiles::Standing;
 
 use crate::derived_lot::Derived;
@@ -80,9 +80,12 @@ impl Stands {
                 made.uv = each
                     .map(|(&face, triangle)| {
                         let slot = &asset.slots()[faces.slot[face] as usize];
-                        let (_, size_m) = slot.texture.as_ref().filter(|_| look_of(face).1)?;
+                        let texture = slot.texture.as_ref().filter(|_| look_of(face).1)?;
                         let normal = cut.normals[face];
-                        Some(triangle.map(|v| boxed(&faces, v as usize, normal, *size_m)))
+                        Some(triangle.map(|v| match texture.lies {
+                            Lies::InMetres(size_m) => boxed(&faces, v as usize, normal, size_m),
+                            Lies::ByCorners { .. } => own(&faces, v as usize),
+                        }))
                     })
                     .collect();
             }
@@ -92,6 +95,11 @@ impl Stands {
         })
         .collect()
     }
+}
+
+/// Where a corner of a face lies on its picture, by the asset's own coordinates.
+fn own(faces: &AssetFaces, vertex: usize) -> [f32; 2] {
+    faces.uv.get(vertex).copied().unwrap_or_default()
 }
 
 /// Where a corner of a face lies on a texture of this size (m): seen from the side of a box that the

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use pyo3::prelude::*;
 use veduta_grammar::engine::Look;
+use veduta_grammar::shape::Slot;
 use veduta_tiles::{batch, batch_whole, Batch, Building};
 
 use crate::derived_lot::Derived;
@@ -45,6 +46,15 @@ impl Textures {
     pub fn number(&self, name: &str) -> Option<u32> {
         let place = self.named.iter().position(|(own, _)| own == name)?;
         Some(place as u32)
+    }
+
+    /// The same of the slot of an asset in a shape of this colour.
+    pub fn seen_in(&self, slot: &Slot, shape: [f32; 3]) -> ([f32; 3], Option<u32>) {
+        let texture = slot.texture.as_ref().map(|texture| texture.name.as_ref());
+        match texture.filter(|name| self.number(name).is_some()) {
+            Some(name) => self.seen_as(slot.colour_in(shape), Some(name)),
+            None => (slot.plain_in(shape), None),
+        }
     }
 
     /// The same of a colour and the name of a texture.
@@ -209,9 +219,7 @@ impl<'a> Making<'a> {
     fn add_assets(&mut self, lot: &Derived, place: [f64; 3], first: u32, told: &[u8]) {
         self.stands.add(lot, place, first, |leaf, look, slot| {
             let kind = (self.classes.of_name(&look.class), told[leaf]);
-            let name = slot.texture.as_ref().map(|(name, _)| name.as_ref());
-            let colour = slot.colour_in(look.colour);
-            let (colour, texture) = self.textures.seen_as(colour, name);
+            let (colour, texture) = self.textures.seen_in(slot, look.colour);
             let number = self.materials.number(kind, colour, look.opacity, texture);
             (number, texture.is_some())
         });

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -154,10 +154,14 @@ def tile_glb(
     buffers: _core.TileBuffers,
     buildings: Sequence[BuildingRow],
     pictures: Sequence[str] = (),
+    cut: Collection[int] = (),
     *,
     name: str = "tile",
 ) -> bytes:
-    """The GLB of a tile; the frame is the tile's, y-up. pictures: the addresses of textures."""
+    """The GLB of a tile; the frame is the tile's, y-up.
+
+    pictures: the addresses of textures. cut: the numbers of those that one sees through somewhere.
+    """
     binary = Binary()
     low, step = buffers.grid
     extensions = {"KHR_mesh_quantization", "EXT_mesh_features", "EXT_structural_metadata"}
@@ -195,7 +199,7 @@ def tile_glb(
         "nodes": nodes,
         "meshes": meshes,
         "materials": [
-            _material(row, shown, buffers.uv_steps.get(number, 1.0))
+            _material(row, shown, buffers.uv_steps.get(number, 1.0), cut)
             for number, row in enumerate(buffers.materials)
         ],
         "extensions": {"EXT_structural_metadata": metadata},
@@ -295,8 +299,10 @@ def _feature_id(count: int) -> dict[str, Any]:
 Look = tuple[int, int, Sequence[float], float, int | None]
 
 
-def _material(row: Look, shown: Sequence[int], step: float) -> dict[str, Any]:
-    """row: class, provenance, colour, opacity, picture. step: of texture coordinates."""
+def _material(row: Look, shown: Sequence[int], step: float, cut: Collection[int]) -> dict[str, Any]:
+    """row: class, provenance, colour, opacity, picture. step: of texture coordinates. cut: the
+    pictures that one sees through somewhere.
+    """
     code, known, colour, opacity, picture = row
     semantic, provenance = SemanticClass.of_code(code), list(Provenance)[known]
     shading: dict[str, Any] = {
@@ -312,6 +318,8 @@ def _material(row: Look, shown: Sequence[int], step: float) -> dict[str, Any]:
     made: dict[str, Any] = {"name": semantic.value, "pbrMetallicRoughness": shading}
     if opacity < 1.0:
         made["alphaMode"] = "BLEND"
+    elif picture in cut:
+        made |= {"alphaMode": "MASK", "alphaCutoff": 0.5, "doubleSided": True}
     if provenance is not Provenance.INVENTED:
         made["extras"] = {"veduta": {"provenance": provenance.value}}
     return made

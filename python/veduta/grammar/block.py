@@ -138,6 +138,8 @@ def run_block(job: Job) -> dict[str, Any]:
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)
     reported = table(result.reported)
     result.notes.update(dict.fromkeys(by.library.told_missing(), 1))
+    if beyond := len(by.library.pictures.keys() - job.textures.keys()):
+        result.notes[f"{beyond} pictures of assets are shown by their mean colours"] = 1
     with timed_step(result.steps, "write"), writing_to(job.out):
         result.tile = result.town.finish()
         if reported is not None:

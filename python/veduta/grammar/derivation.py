@@ -65,6 +65,7 @@ class Rules:
                 return make()
             except _core.AssetWanted as wanted:
                 self.library.add_to(self.core, str(wanted.args[1]))
+                self.textures.add(self.library.pictures)
 
     def __repr__(self) -> str:
         starts, attributes = len(self.starts), len(self.attributes)
@@ -350,6 +351,7 @@ def parse(rules: str | Path, *, style: str | None = None) -> Rules:
     asked.add_to(core)
     texts = [text for _, text in files.files]
     textures = read_textures(find_textures(files.path, texts, files.search, asked.names))
+    textures.add(library.pictures)
     return Rules(files.path, core, library, textures)
 
 

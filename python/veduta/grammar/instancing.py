@@ -55,8 +55,16 @@ def instances_of(
 
 
 def _material(slot: Slot, shape: Colour, textures: Mapping[str, Texture]) -> Material:
-    """A slot without a colour of its own takes that of the shape, where it has one."""
+    """A slot without a colour of its own takes that of the shape, where it has one.
+
+    A picture that is not among the textures is seen as its mean colour.
+    """
     colour = slot.colour or (slot.fallback if shape == WHITE else shape)
+    named = slot.picture or (slot.texture and f"{PREFIX}{slot.texture}")
+    texture = textures.get(named) if named else None
+    if slot.picture is not None and texture is None:
+        red, green, blue = colour
+        colour = (red * slot.mean[0], green * slot.mean[1], blue * slot.mean[2])
     red, green, blue = (round(channel, 4) for channel in colour)
-    texture = None if slot.texture is None else textures.get(f"{PREFIX}{slot.texture}")
-    return Material(slot.name, (red, green, blue), slot.roughness, slot.metalness, texture)
+    told = (slot.name, (red, green, blue), slot.roughness, slot.metalness, texture)
+    return Material(*told, two_sided=texture is not None and texture.cut)

@@ -52,7 +52,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "17"
+VERSION = "18"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""
@@ -197,11 +197,14 @@ def _call(
     options = options.starting_with(start)
     compiled = compile_rules(rules, options.derive.style)
     options = check_options(compiled, rules.path, options)
-    assets = Library(rules.search).digest(compiled)
+    library = Library(rules.search)
+    assets = library.digest(compiled)
     files = tuple(rules.texts)
     asked = project_files(rules.search, compiled)
     textures = find_textures(rules.path, [text for _, text in files], rules.search, asked.names)
     read_textures(textures)
+    own, notes = library.textures(compiled)
+    textures |= own
     edits = {} if edits_path is None else read_edits(edits_path)
     lots = _lots(lots_path, options, room, progress)
     if edits_path is not None:
@@ -229,7 +232,7 @@ def _call(
         files,
         options,
         textures,
-        tuple(otherwise(rules, compiled)),
+        (*otherwise(rules, compiled), *notes),
         lots,
         squares,
         keys,

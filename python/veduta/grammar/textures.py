@@ -2,7 +2,8 @@
 
 A name that begins with `builtin/textures/` is a texture that Veduta brings along (`surfaces`).
 Others are files, looked for in the folders of the rule file's project (`project`). A file may have
-a mask beside it, `NAME.invented.png`, in which white says what nobody has photographed.
+a mask beside it, `NAME.invented.png`, in which white says what nobody has photographed. Pictures of
+assets are among them under names of their own (`assets/pictures.py`).
 """
 
 from __future__ import annotations
@@ -20,11 +21,12 @@ from numpy.typing import NDArray
 from PIL import Image
 from pydantic import JsonValue
 
+from veduta.formats.model_pictures import file_of, read_picture
 from veduta.grammar.project import SearchPath
 from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
 from veduta.grammar.surfaces.patterns import PATTERNS, pattern_of
 from veduta.grammar.surfaces.patterns import PREFIX as PATTERN
-from veduta.imaging.encode import jpeg_bytes
+from veduta.imaging.encode import jpeg_bytes, png_bytes
 from veduta.imaging.read import read_image
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.place.material import Colour, Texture
@@ -48,6 +50,8 @@ _NAMED = re.compile(
     re.IGNORECASE,
 )
 
+_OF_ASSET = "asset:"
+"""Before what `formats.model_pictures` reads: there, alpha is what one sees through."""
 _PICTURE = re.compile(r"\.(?:jpe?g|png|webp|tiff?|bmp|tga)$", re.IGNORECASE)
 _SHOWN = re.compile(
     r'//[^\n]*|#[^\n]*|/\*.*?\*/|\btexture\s*\(\s*"(?P<name>[^"\n]*)"\s*\)|"[^"\n]*"', re.DOTALL
@@ -65,7 +69,11 @@ class Textures(Mapping[str, Texture]):
     """
 
     def __init__(self, files: Mapping[str, str]) -> None:
-        self._files = files
+        self._files = dict(files)
+
+    def add(self, files: Mapping[str, str]) -> None:
+        """Make more of them known."""
+        self._files |= files
 
     def __getitem__(self, name: str) -> Texture:
         path = name if is_known(name) else self._files[name]
@@ -91,6 +99,11 @@ def is_builtin(name: str) -> bool:
 def _is_made(path: str) -> bool:
     """Whether a texture is no file: built-in, or a test picture."""
     return is_builtin(path) or pattern_of(path) is not None
+
+
+def as_texture(picture: str) -> str:
+    """The file among textures of a picture of an asset, as `formats.model_pictures` names it."""
+    return f"{_OF_ASSET}{picture}"
 
 
 def is_known(name: str) -> bool:
@@ -177,6 +190,9 @@ def textures_digests(files: Mapping[str, str]) -> dict[str, JsonValue]:
         if _is_made(path):
             told[name] = [sources_digest()]
             continue
+        if path.startswith(_OF_ASSET):
+            told[name] = [file_digest(file_of(path.removeprefix(_OF_ASSET))[0])]
+            continue
         mask = Path(path).with_name(mask_name(path))
         told[name] = [file_digest(each) for each in (Path(path), mask) if each.is_file()]
     return told
@@ -186,22 +202,35 @@ def read_textures(files: Mapping[str, str]) -> Textures:
     """The pictures of `find_textures`; InputError where a file cannot be read."""
     textures = Textures(files)
     for name, path in files.items():
-        if not _is_made(path):
+        # Those of assets are read when an asset is: a faulty one is no fault of the rules.
+        if not _is_made(path) and not path.startswith(_OF_ASSET):
             _ = textures[name]
     return textures
 
 
-def as_jpeg(path: str, most_px: int | None = None, tint: Tint = WHITE) -> bytes:
-    """A picture of `find_textures` as JPEG, made smaller where a side has more than `most_px`.
+def is_cut(path: str) -> bool:
+    """Whether one sees through a picture somewhere: only those of assets may be so."""
+    return path.startswith(_OF_ASSET) and Textures({path: path})[path].cut
+
+
+def as_file(path: str, most_px: int | None = None, tint: Tint = WHITE) -> bytes:
+    """A picture as JPEG, made smaller where a side has more than `most_px`; as PNG with alpha where
+    one sees through it.
 
     tint: what its sRGB values are multiplied by, of 255. InputError where it cannot be read.
     """
-    image = Image.fromarray(Textures({path: path})[path].pixels)
+    texture = Textures({path: path})[path]
+    image = Image.fromarray(texture.pixels)
+    if texture.cut:
+        image.putalpha(Image.fromarray(np.where(texture.invented, 0, 255).astype(np.uint8)))
     if most_px is not None:
         image.thumbnail((most_px, most_px), Image.Resampling.LANCZOS)
     if tint != WHITE:
-        seen = np.asarray(image) * (np.array(tint) / 255.0)
+        factor = np.array([*tint, 255][: len(image.getbands())]) / 255.0
+        seen = np.asarray(image) * factor
         image = Image.fromarray(np.round(seen).astype(np.uint8))
+    if texture.cut:
+        return png_bytes(image, optimize=True)
     return jpeg_bytes(image, JPEG_QUALITY, optimize=True)
 
 
@@ -240,6 +269,8 @@ def _painted(name: str) -> Texture:
 
 def _changed(path: str) -> tuple[int, int]:
     """When a picture and its mask were last written (ns); 0 where there is none."""
+    if path.startswith(_OF_ASSET):
+        return os.stat(file_of(path.removeprefix(_OF_ASSET))[0]).st_mtime_ns, 0
     mask = Path(path).with_name(mask_name(path))
     return os.stat(path).st_mtime_ns, mask.stat().st_mtime_ns if mask.is_file() else 0
 
@@ -268,6 +299,8 @@ def _bytes_of(texture: Texture) -> int:
 
 
 def _read_anew(path: str) -> Texture:
+    if path.startswith(_OF_ASSET):
+        return read_picture(path.removeprefix(_OF_ASSET))
     pixels = read_image(Path(path)).pixels
     height, width = pixels.shape[:2]
     if height * width > MAX_PIXELS:

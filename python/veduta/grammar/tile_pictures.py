@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from veduta.grammar.textures import WHITE, Tint, as_jpeg, mean_of
+from veduta.grammar.textures import WHITE, Tint, as_file, is_cut, mean_of
 from veduta.place.material import Colour
 
 FOLDER = "textures"
@@ -22,12 +22,13 @@ MAX_SIDE = 1024
 class TilePicture:
     """A picture: its name in the rules, its file in OUT, and its mean colour (sRGB, 0 to 1).
 
-    The mean is what the picture looks like from afar.
+    The mean is what the picture looks like from afar. cut: whether one sees through it somewhere.
     """
 
     name: str
     file: str
     mean: Colour
+    cut: bool = False
 
     @property
     def named(self) -> tuple[str, Colour]:
@@ -36,22 +37,32 @@ class TilePicture:
 
 
 def tile_pictures(textures: Mapping[str, str]) -> list[TilePicture]:
-    """The pictures of `find_textures`; the paths of their files depend on their names alone."""
-    return [TilePicture(name, picture_file(name), mean_of(path)) for name, path in textures.items()]
+    """The pictures of a call; the paths of their files depend on their names, and on whether one
+    sees through them.
+    """
+    return [
+        TilePicture(name, picture_file(name, cut=cut), mean_of(path), cut)
+        for name, path in textures.items()
+        for cut in [is_cut(path)]
+    ]
 
 
 def picture_files(
     textures: Mapping[str, str], shown: Iterable[tuple[str, Tint]]
 ) -> dict[str, bytes]:
-    """The files of these pictures in these tints, JPEG, by their paths in OUT."""
+    """The files of these pictures in these tints, JPEG or PNG, by their paths in OUT."""
     return {
-        picture_file(name, tint): as_jpeg(textures[name], MAX_SIDE, tint) for name, tint in shown
+        picture_file(name, tint, cut=is_cut(textures[name])): as_file(
+            textures[name], MAX_SIDE, tint
+        )
+        for name, tint in shown
     }
 
 
-def picture_file(name: str, tint: Tint = WHITE) -> str:
+def picture_file(name: str, tint: Tint = WHITE, *, cut: bool = False) -> str:
     """A path that other names and tints do not have, on any system."""
     stem = re.sub(r"[^A-Za-z0-9]+", "-", name.rpartition("/")[2].partition(".")[0]).strip("-")
     digest = hashlib.sha256(name.encode()).hexdigest()[:8]
     colour = "" if tint == WHITE else "-{:02x}{:02x}{:02x}".format(*tint)
-    return f"{FOLDER}/{stem[:40] or 'picture'}-{digest}{colour}.jpg"
+    kind = "png" if cut else "jpg"
+    return f"{FOLDER}/{stem[:40] or 'picture'}-{digest}{colour}.{kind}"

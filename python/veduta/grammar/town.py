@@ -146,7 +146,8 @@ class Town:
             return None
         names = [BuildingRow(one.lot.id, one.lot.name) for _, one in chosen]
         uris = [f"{TO_OUT}/{picture.file}" for picture in self.pictures]
-        write_bytes(self.folder / name, tile_glb(buffers, names, uris))
+        cut = {number for number, picture in enumerate(self.pictures) if picture.cut}
+        write_bytes(self.folder / name, tile_glb(buffers, names, uris, cut))
         numbers = {picture for *_, picture in buffers.materials if picture is not None}
         self.shown |= {self.pictures[number].name for number in numbers}
         if level == FULL:

@@ -8,8 +8,8 @@ use veduta_geometry::solid::{joined, Mesh};
 
 use crate::ast::{BinaryOp, Joining, UnaryOp};
 use crate::shape::{
-    components, connected, is_meant, surroundings, Component, Form, Frames, Geometry, Kind, Scope,
-    Surroundings, TOLERANCE,
+    components, connected, is_meant, surroundings, Component, Form, Frames, Geometry, Kind, Lies,
+    Scope, SlotTexture, Surroundings, TOLERANCE,
 };
 use crate::Span;
 
@@ -146,8 +146,13 @@ impl Choosing {
         let part = self.found[at].index;
         let look = Arc::make_mut(&mut state.look);
         if let Some(slot) = instance.asset.slot_of_part(self.kind, part) {
-            look.colour = slot.colour_in(look.colour);
-            if let Some((name, size_m)) = &slot.texture {
+            // What lies by the asset's own corners has none once it is a shape: its colour stays.
+            look.colour = slot.plain_in(look.colour);
+            if let Some(SlotTexture {
+                name,
+                lies: Lies::InMetres(size_m),
+            }) = &slot.texture
+            {
                 (look.texture, look.tile) = (Some(name.clone()), Some(*size_m));
             }
         }

@@ -22,6 +22,9 @@ pub struct Asset {
     pub in_plane: bool,
     face_slot: Vec<u32>,
     slots: Vec<Slot>,
+    /// Where each corner lies on the picture of its slot, from the lower left, in the order of the
+    /// mesh; empty where the asset has no such coordinates.
+    uv: Vec<[f32; 2]>,
     /// The names of the slots, and the group of each face, where the file has them.
     labels: Labels,
     view: View,
@@ -55,9 +58,25 @@ pub struct Slot {
     pub colour: Option<[f32; 3]>,
     /// The colour where a shape has none of its own.
     pub fallback: [f32; 3],
-    /// A texture's name, and the metres that it covers to the right and up. It lies in metres, seen
-    /// from the side of a box that a face looks to most.
-    pub texture: Option<(Arc<str>, [f64; 2])>,
+    pub texture: Option<SlotTexture>,
+}
+
+/// The texture of a slot: its name, and where it lies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlotTexture {
+    pub name: Arc<str>,
+    pub lies: Lies,
+}
+
+/// Where a texture lies on the faces of a slot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lies {
+    /// In metres, seen from the side of a box that a face looks to most; so many metres to the right
+    /// and up are one picture.
+    InMetres([f64; 2]),
+    /// Where the asset's own coordinates say. `mean` is the picture's mean colour (sRGB), for what
+    /// becomes of the faces when they are taken out of the asset.
+    ByCorners { mean: [f32; 3] },
 }
 
 /// The colour of a shape that none was given to.
@@ -68,6 +87,17 @@ impl Slot {
     pub fn colour_in(&self, shape: [f32; 3]) -> [f32; 3] {
         let own = if shape == WHITE { self.fallback } else { shape };
         self.colour.unwrap_or(own)
+    }
+
+    /// What it looks like in such a shape without its own picture: a picture that lies in metres is
+    /// left out.
+    pub fn plain_in(&self, shape: [f32; 3]) -> [f32; 3] {
+        let colour = self.colour_in(shape);
+        match self.texture.as_ref().map(|texture| texture.lies) {
+            // A product of sRGB values is nearly that of light.
+            Some(Lies::ByCorners { mean }) => [0, 1, 2].map(|k| colour[k] * mean[k]),
+            _ => colour,
+        }
     }
 }
 
@@ -80,6 +110,9 @@ pub struct AssetFaces {
     pub polygon_offsets: Vec<i64>,
     /// The slot of each face.
     pub slot: Vec<u32>,
+    /// Where each position lies on the picture of its slot, from the lower left; empty where the
+    /// asset has no such coordinates.
+    pub uv: Vec<[f32; 2]>,
 }
 
 impl Asset {
@@ -110,6 +143,7 @@ impl Asset {
                 fallback: WHITE,
                 texture: None,
             }],
+            uv: Vec::new(),
             labels: Labels::default(),
             view: View::default(),
             views: Default::default(),
@@ -169,6 +203,14 @@ impl Asset {
         })
     }
 
+    /// Where each corner of the mesh lies on the picture of its slot; None where the numbers do not
+    /// fit.
+    pub fn with_uv(self, uv: Vec<[f32; 2]>) -> Option<Self> {
+        let fits = uv.len() == self.unit.corner_count();
+        let is_sound = uv.iter().flatten().all(|share| share.is_finite());
+        (fits && is_sound).then_some(Self { uv, ..self })
+    }
+
     pub fn view(&self) -> View {
         self.view
     }
@@ -186,13 +228,20 @@ impl Asset {
     fn made(&self, view: View) -> Self {
         let mirrors = view.mirrored != self.view.mirrored;
         let mut unit = Mesh::clone(&self.unit);
-        let mut low = self.low;
+        let (mut low, mut uv) = (self.low, self.uv.clone());
         if mirrors {
             unit = unit.mapped(|point| mirrored(point, DVec3::new(-1.0, 1.0, 1.0), self.size));
             low.x = -(low.x + self.size.x);
         }
         if mirrors != (view.inside_out != self.view.inside_out) {
             unit = unit.reversed();
+            let mut rest = &mut uv[..];
+            let rings = self.unit.faces().flat_map(|face| face.rings());
+            for size in rings.map(<[u32]>::len).filter(|_| !self.uv.is_empty()) {
+                let (ring, after) = rest.split_at_mut(size);
+                ring.reverse();
+                rest = after;
+            }
         }
         Self {
             name: self.name.clone(),
@@ -200,6 +249,7 @@ impl Asset {
             unit: Arc::new(unit),
             face_slot: self.face_slot.clone(),
             slots: self.slots.clone(),
+            uv,
             labels: self.labels.clone(),
             view,
             views: Default::default(),
@@ -238,6 +288,7 @@ impl Asset {
             ring_offsets: vec![0],
             polygon_offsets: vec![0],
             slot: self.face_slot.clone(),
+            uv: self.uv.clone(),
             ..AssetFaces::default()
         };
         for face in self.unit.faces() {

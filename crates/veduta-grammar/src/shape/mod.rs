@@ -11,7 +11,7 @@ mod sizes;
 mod splitting;
 mod surroundings;
 
-pub use asset::{Asset, AssetFaces, Instance, Labels, Slot, View};
+pub use asset::{Asset, AssetFaces, Instance, Labels, Lies, Slot, SlotTexture, View};
 pub use components::{components, direction, is_selected, Component, Direction, Kind};
 pub use connected::connected;
 pub use distances::box_distance;

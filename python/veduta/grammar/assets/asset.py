@@ -30,7 +30,8 @@ class Slot:
 
     colour: sRGB, 0..1; None for that of the shape that the asset is put into. fallback: the colour
     where a shape has none of its own (white). texture: a built-in one, by its plain name; it
-    multiplies with the colour.
+    multiplies with the colour. picture: one that lies by the asset's own `uv`, and multiplies, too;
+    mean: its mean colour (sRGB).
     """
 
     name: str
@@ -39,6 +40,8 @@ class Slot:
     metalness: float = 0.0
     fallback: Colour = (1.0, 1.0, 1.0)
     texture: str | None = None
+    picture: str | None = None
+    mean: Colour = (1.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,8 @@ class Asset:
     detail have the finest one's, so that they stand in the same place. face_group: (f,) place in
     `groups`, the names that the asset's file has; empty where it has none. in_plane: whether its
     plane z = 0 lies in that of a flat shape that it is put into, as a window's in a wall.
+    uv: (c, 2) float32, where each corner lies on the picture of its slot, from the lower left; None
+    where no slot has one. notes: what of its file is not shown.
     """
 
     name: str
@@ -63,6 +68,8 @@ class Asset:
     face_group: NDArray[np.int32] = field(default_factory=lambda: np.zeros(0, np.int32))
     groups: tuple[str, ...] = ()
     in_plane: bool = False
+    uv: NDArray[np.float32] | None = None
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def box_m(self) -> NDArray[np.float64]:
@@ -77,9 +84,9 @@ class Asset:
         faces = np.flatnonzero(np.isin(self.face_slot, chosen))
         sizes = np.diff(self.offsets)[faces]
         own = [self.corners[a:b] for a, b in zip(self.offsets, self.offsets[1:], strict=False)]
-        used, corners = np.unique(
-            np.concatenate([own[face] for face in faces.tolist()]), return_inverse=True
-        )
+        chosen_corners = np.concatenate([own[face] for face in faces.tolist()])
+        used, corners = np.unique(chosen_corners, return_inverse=True)
+        is_chosen = np.repeat(np.isin(self.face_slot, chosen), np.diff(self.offsets))
         return Asset(
             name=name,
             points_m=self.points_m[used],
@@ -89,6 +96,8 @@ class Asset:
             slots=tuple(self.slots[number] for number in chosen),
             given_box_m=self.box_m,
             in_plane=self.in_plane,
+            uv=None if self.uv is None else self.uv[is_chosen],
+            notes=self.notes,
         )
 
     def seen(self, mirrored: bool, inside_out: bool) -> Asset:
@@ -98,16 +107,16 @@ class Asset:
         told = [("mirrored", mirrored), ("inside out", inside_out)]
         side = np.array([-1.0, 1.0, 1.0]) if mirrored else np.ones(3)
         box = np.sort(self.box_m * side, axis=0)
-        corners = self.corners
+        order = np.arange(len(self.corners))
         if mirrored != inside_out:
-            rings = np.split(corners, self.offsets[1:-1])
-            corners = np.concatenate([ring[::-1] for ring in rings])
+            order = np.concatenate([ring[::-1] for ring in np.split(order, self.offsets[1:-1])])
         return replace(
             self,
             name=" ".join([self.name, *(word for word, is_so in told if is_so)]),
             points_m=self.points_m * side,
-            corners=corners,
+            corners=self.corners[order],
             given_box_m=box,
+            uv=None if self.uv is None else self.uv[order],
         )
 
     @cached_property
@@ -128,11 +137,15 @@ class Asset:
         used = np.unique(indices)
         shading = corner_normals(self.corners, self.offsets, normal)
         side, uv = boxed(self, normal)
+        is_own = self._has_picture
+        if self.uv is not None:
+            uv[is_own, 0], uv[is_own, 1] = self.uv[is_own, 0], 1.0 - self.uv[is_own, 1]
         key = np.concatenate(
             [
                 self.corners[used, None],
                 np.round(shading[used] * 1000.0).astype(np.int64),
                 side[used, None],
+                np.where(is_own[:, None], uv, np.float32(0.0))[used].view(np.int32),
             ],
             axis=1,
         )
@@ -149,8 +162,14 @@ class Asset:
             indices=vertex_of[indices[order]],
             slot=slot[order],
             slots=tuple(slot.name for slot in self.slots),
-            uv=uv[chosen] if side.any() else None,
+            uv=uv[chosen] if side.any() or is_own.any() else None,
         )
+
+    @property
+    def _has_picture(self) -> NDArray[np.bool_]:
+        """(c,) whether a corner lies on a picture by its own place."""
+        slots = np.array([slot.picture is not None for slot in self.slots])
+        return np.repeat(slots[self.face_slot], np.diff(self.offsets))
 
 
 def boxed(

@@ -22,7 +22,7 @@ WELD = 1e-6
 
 def read_asset(name: str, path: Path) -> Asset:
     """The asset of a file, by the name that rules have for it; InputError says what is wrong."""
-    asset = _cleaned(name, _mesh(path))
+    asset = _cleaned(name, _pictured(_mesh(path)))
     if asset is None:
         raise InputError(path, "has no face with an area", "Check it in the program it comes from.")
     return asset
@@ -38,25 +38,50 @@ def _mesh(path: Path) -> ReadMesh:
             return read_glb_mesh(path)
 
 
+def _pictured(mesh: ReadMesh) -> ReadMesh:
+    """Without the pictures on which no corner has a place."""
+    if mesh.uv is None:
+        return mesh
+    has_place = np.isfinite(mesh.uv).all(axis=1)
+    row = np.repeat(mesh.face_material, np.diff(mesh.offsets))
+    laid = np.unique(row[has_place]).tolist()
+    pictures, notes = list(mesh.pictures), list(mesh.notes)
+    for number, (label, _) in enumerate(mesh.materials):
+        if pictures[number] is not None and number not in laid:
+            pictures[number] = None
+            told = f"the faces of its material {label[:200]} have no places on its picture"
+            notes.append(f"{told}: the colour alone is shown")
+    return replace(mesh, pictures=tuple(pictures), notes=tuple(notes))
+
+
 def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
-    """Points that coincide joined, faces without an area left out, warped ones in triangles."""
+    """Points that coincide joined, faces without an area left out, warped ones in triangles.
+
+    Corners at joined points stay apart on pictures.
+    """
     corners, offsets, material = _welded(mesh)
-    group = mesh.face_group
+    group, places = mesh.face_group, np.arange(len(corners))
     for triangles in (False, True):
-        faces = [corners[a:b] for a, b in zip(offsets[:-1], offsets[1:], strict=True)]
-        kept = [row for row, face in enumerate(faces) if _has_area(mesh.points[face])]
+        faces = [places[a:b] for a, b in zip(offsets[:-1], offsets[1:], strict=True)]
+        kept = [row for row, face in enumerate(faces) if _has_area(mesh.points[corners[face]])]
         if not kept:
             return None
         own = [faces[row] for row in kept]
+        shown = np.concatenate(own)
         asset = Asset(
             name=name,
             points_m=mesh.points,
-            corners=np.concatenate(own).astype(np.uint32),
+            corners=corners[shown].astype(np.uint32),
             offsets=np.concatenate([[0], np.cumsum([len(face) for face in own])]).astype(np.int64),
             face_slot=material[kept],
-            slots=tuple(Slot(label or "surface", colour) for label, colour in mesh.materials),
+            slots=tuple(
+                Slot(label or "surface", colour, picture=picture)
+                for (label, colour), picture in zip(mesh.materials, mesh.pictures, strict=True)
+            ),
             face_group=group[kept],
             groups=mesh.groups,
+            uv=None if mesh.uv is None else np.nan_to_num(mesh.uv[shown], nan=0.0),
+            notes=mesh.notes,
         )
         asset = _flattened(_compact(asset))
         try:
@@ -65,7 +90,7 @@ def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
             if triangles:
                 raise
             counts = [len(face) - 2 for face in faces]
-            corners, offsets = _fans(faces)
+            places, offsets = _fans(faces)
             material, group = np.repeat(material, counts), np.repeat(group, counts)
             continue
         return asset

@@ -5,9 +5,11 @@ An asset that is not there leaves the box of its scope, in a colour of its own, 
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import hashlib
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from veduta import _core
@@ -15,10 +17,13 @@ from veduta.formats.obj_read import LARGEST_BYTES
 from veduta.grammar.assets.asset import Asset, Slot
 from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names, parts_of
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
+from veduta.grammar.assets.pictures import picture_name, pictures_of_files
 from veduta.grammar.assets.primitives import missing_box, primitive
 from veduta.grammar.project import SearchPath
 from veduta.grammar.surfaces.catalogue import PREFIX as TEXTURES
 from veduta.grammar.surfaces.catalogue import sizes_m, sources_digest
+from veduta.grammar.textures import MAX_TEXTURES, as_texture, mean_of
+from veduta.place.material import Colour
 from veduta.run.errors import InputError
 
 MOST_FILES, MOST_FOLDERS = 2_000, 10_000
@@ -29,12 +34,14 @@ _READ = (*SUFFIXES, ".mtl")
 class Library:
     """What `i` may insert. search: where files are looked for; a folder alone is one, too.
 
-    missing: why an asset that rules name is not there, by its name.
+    missing: why an asset that rules name is not there, by its name. pictures: where those of
+    the assets so far are, by the names that they have among the textures of a call.
     """
 
     def __init__(self, search: SearchPath | Path) -> None:
         self.search = search if isinstance(search, SearchPath) else SearchPath.of(search)
         self.missing: dict[str, str] = {}
+        self.pictures: dict[str, str] = {}
         self._known: dict[str, Asset] = {}
         self._views: dict[tuple[str, tuple[bool, bool]], Asset] = {}
 
@@ -58,7 +65,7 @@ class Library:
             names = [slot.name for slot in asset.slots]
             labels = (names, asset.face_group.tolist(), list(asset.groups))
         looks = (asset.face_slot, slots, labels)
-        rules.add_asset(name, *faces, asset.box_m, *looks, in_plane=asset.in_plane)
+        rules.add_asset(name, *faces, asset.box_m, *looks, in_plane=asset.in_plane, uv=asset.uv)
 
     def add_written_to(self, rules: _core.GrammarRules) -> None:
         """Hand over the assets whose names stand in the rules.
@@ -96,14 +103,40 @@ class Library:
             columns = (asset.points_m, asset.corners, asset.offsets, asset.face_slot)
             for column in (*columns, asset.face_group):
                 total.update(column.tobytes())
-        for root, path in self._files() if computed else ():
+            if asset.uv is not None:
+                total.update(asset.uv.tobytes())
+        for root, path in self.files() if computed else ():
             total.update(f"{path.relative_to(root)} {path.stat().st_size}".encode())
             total.update(hashlib.sha256(path.read_bytes()).digest())
         return total.hexdigest()
 
+    def textures(self, rules: _core.GrammarRules) -> tuple[dict[str, str], tuple[str, ...]]:
+        """The pictures of the assets that the rules may name, and what is to be said of them.
+
+        Where names are computed, those of all asset files count, as far as there is room.
+        """
+        written, computed = rules.asset_names
+        for name in written:
+            with contextlib.suppress(InputError):
+                _ = self[name]
+        found = dict(self.pictures)
+        for where in pictures_of_files(self.files()) if computed else ():
+            if len(found) > MAX_TEXTURES:
+                break
+            name = picture_name(where, self.search)
+            if name not in found and _is_sound(where):
+                found[name] = as_texture(where)
+        if len(found) <= MAX_TEXTURES:
+            return found, ()
+        note = f"assets have more than {MAX_TEXTURES} pictures: of the others the mean is shown"
+        return dict(list(found.items())[:MAX_TEXTURES]), (note,)
+
     def told_missing(self) -> list[str]:
-        """What to say of the assets that are missing."""
-        return [f"{why} A box stands for it." for why in self.missing.values()]
+        """What to say of the assets that are missing, and of what is missing of the others."""
+        boxes = [f"{why} A box stands for it." for why in self.missing.values()]
+        return boxes + [
+            f"{name}: {note}" for name, asset in self._known.items() for note in asset.notes
+        ]
 
     def faults(self, rules: _core.GrammarRules) -> list[str]:
         """What is wrong with the assets whose names stand in the rules."""
@@ -138,9 +171,26 @@ class Library:
             looked = ", ".join(str(folder) for folder in self.search.folders)
             fault = f"does not exist in any folder in which it is looked for ({looked})"
             raise InputError(name, fault, "Check the name in the rule file.")
-        return read_asset(name, path)
+        return self._with_pictures(read_asset(name, path))
 
-    def _files(self) -> list[tuple[Path, Path]]:
+    def _with_pictures(self, asset: Asset) -> Asset:
+        """With the names of pictures among textures, and without those that cannot be read."""
+        slots, notes = list(asset.slots), list(asset.notes)
+        for number, slot in enumerate(slots):
+            if slot.picture is None:
+                continue
+            name = picture_name(slot.picture, self.search)
+            try:
+                mean = mean_of(as_texture(slot.picture))
+            except InputError as error:
+                slots[number] = replace(slot, picture=None)
+                notes.append(f"a picture is not shown, but the colour of its material: {error}")
+                continue
+            self.pictures[name] = as_texture(slot.picture)
+            slots[number] = replace(slot, picture=name, mean=mean)
+        return replace(asset, slots=tuple(slots), notes=tuple(dict.fromkeys(notes)))
+
+    def files(self) -> list[tuple[Path, Path]]:
         """Asset files of all folders that are searched, each with its folder, once."""
         seen: dict[Path, Path] = {}
         for folder in self.search.folders:
@@ -149,11 +199,25 @@ class Library:
         return [(folder, path) for path, folder in seen.items()]
 
 
-def textured(slot: Slot) -> tuple[str, tuple[float, float]] | None:
-    """The texture of a slot by its name in rule files, with its size (m); None without one."""
+def textured(slot: Slot) -> tuple[str, tuple[float, float] | None, Colour] | None:
+    """The texture of a slot by its name among textures, its size (m), and its mean colour (sRGB).
+
+    No size where it lies by the asset's own places; None without a texture.
+    """
+    if slot.picture is not None:
+        return slot.picture, None, slot.mean
     name = f"{TEXTURES}{slot.texture}"
     size = sizes_m().get(name)
-    return None if size is None else (name, size)
+    return None if size is None else (name, size, slot.mean)
+
+
+def _is_sound(picture: str) -> bool:
+    """Whether a picture can be read."""
+    try:
+        mean_of(as_texture(picture))
+    except InputError:
+        return False
+    return True
 
 
 def _files_below(folder: Path) -> list[Path]:
