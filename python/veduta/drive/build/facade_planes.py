@@ -21,7 +21,7 @@ class PlaneParameters:
     least_seen: share of texels that images show, below which no orthophoto is made.
     glass: share of points behind the wall, seen through it, above which it is a glass front.
     back_m: a neighbour that stands so much farther back or forth makes a stepped front.
-    across: share of columns with a wall across the path that is named.
+    across: share of columns with a wall across the path that is named. open: the same of an arcade.
     """
 
     off_m: float = 0.25
@@ -32,13 +32,14 @@ class PlaneParameters:
     glass: float = 0.3
     back_m: float = 0.5
     across: float = 0.2
+    open: float = 0.2
 
 
 @dataclass(frozen=True, eq=False)
 class FacadePlane:
     """A wall from column `first` up to `last` of a segment. left, right: (3,) its lower corners as
     seen from the street (m, world); height_m: over them. named: what the paper's section 8.4 finds
-    hard: "glass front", "stepped", "porch", "wall across the path".
+    hard: "glass front", "stepped", "porch", "arcade", "wall across the path".
     """
 
     first: int
@@ -101,6 +102,8 @@ def _names(
     across = depths.across[plane.first : plane.last] & ~depths.porch[plane.first : plane.last]
     if depths.porch[max(plane.first - 5, 0) : plane.last + 5].any():
         found.append("porch")
+    if np.isfinite(layers.behind.arcades.depth[plane.first : plane.last]).mean() > chosen.open:
+        found.append("arcade")
     if across.mean() > chosen.across:
         found.append("wall across the path")
     return tuple(found)

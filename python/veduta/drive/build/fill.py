@@ -73,7 +73,8 @@ def fill_background(
     """
     chosen = parameters or FillParameters()
     main = _bridged(layers.depths.main, frame.spacing_m, chosen)
-    foot = _virtual_boundary(layers, frame, main)
+    lowest = layers.behind.floor(main)
+    foot = _virtual_boundary(layers, frame, lowest)
     rows = np.arange(frame.shape[0])[:, None]
     upper = rows >= foot
     measured = layers.background.copy()
@@ -84,17 +85,18 @@ def fill_background(
     source = np.where(np.isfinite(measured), Source.MEASURED, Source.NOTHING).astype(np.uint8)
     wall = np.where(upper, measured, np.nan)
     # From the main depth on, which steps where fronts do: a step is not filled as a slope.
-    base = np.where(np.isfinite(main), main, 0.0).astype(np.float32)[None]
+    behind = layers.behind.depth(np.where(layers.wall, layers.background, np.nan))
+    base = np.where(np.isfinite(behind), behind, np.nan_to_num(main)).astype(np.float32)
     holes = holes_of(objects)
     wall = _between_beams(wall - base, upper, chosen)
-    plain = 0.0 if chosen.from_main else base
+    plain = np.float32(0.0) if chosen.from_main else base
     wall = fill_structure(wall + plain, np.where(upper, holes, 0)) - plain + base
     inside = upper & (rows <= _top_rows(np.isfinite(wall))) & np.isfinite(main)
     filled = _across(wall - base, frame.spacing_m, chosen, axis=1) + base
     filled = _across(filled, float("nan"), chosen, axis=0)
-    filled = np.where(inside & np.isnan(filled), main[None].astype(np.float32), filled)
+    filled = np.where(inside & np.isnan(filled), base, filled)
     filled = np.where(inside, filled, wall)
-    depth = np.where(upper, filled, _ground_depth(layers, frame, main, measured, holes, foot, chosen))
+    depth = np.where(upper, filled, _ground_depth(layers, frame, lowest, measured, holes, foot, chosen))
     depth = _smoothed(depth.astype(np.float32), upper, chosen.smooth_m)
     # Where a beam grazes the ground its depth is noise: there the height is smoothed.
     down = np.tan(np.minimum(frame.angles_rad, -1e-3))[:, None].astype(np.float32)

@@ -17,6 +17,9 @@ class GroundParameters:
 
     cell_m: cells along the path and across it. Streets slope slowly: a cell is ground where its
     lowest points are within `step_m` plus `slope` times its distance of the road.
+    rise_m: from one cell to the next one farther out it rises by no more (a kerb), and by `slope`
+    over more of them: what is higher is the foot of a wall of which the cell has more points than
+    of the ground.
     over_m: points so little above it are ground: noise of the scanner and rough paving.
     lowest: quantile that stands for the lowest points; single points lie too low.
     """
@@ -24,6 +27,7 @@ class GroundParameters:
     cell_m: tuple[float, float] = (1.0, 0.5)
     step_m: float = 0.35
     slope: float = 0.03
+    rise_m: float = 0.25
     over_m: float = 0.08
     lowest: float = 0.08
     fewest: int = 4
@@ -75,7 +79,7 @@ def find_ground(
     low, count = low.reshape(rows, columns), count.reshape(rows, columns)
     away = (np.arange(columns) + 0.5) * across
     plausible = np.abs(low) < chosen.step_m + chosen.slope * away
-    seen = plausible & (count >= chosen.fewest)
+    seen = _without_walls(low, plausible & (count >= chosen.fewest), across, chosen)
     if not seen.any():
         empty = Ground(np.zeros((rows, columns)), seen, cell_columns, across)
         return empty, np.zeros(len(points.column), dtype=bool)
@@ -85,6 +89,20 @@ def find_ground(
     ground = Ground(smooth, seen, cell_columns, across)
     above = points.height - ground.under(points.column, points.depth)
     return ground, np.abs(above) < chosen.over_m + 0.003 * points.depth
+
+
+def _without_walls(
+    low: NDArray[np.float64], seen: NDArray[np.bool_], across_m: float, chosen: GroundParameters
+) -> NDArray[np.bool_]:
+    """(a, b) cells of `seen` that are no higher than the ground before them, from the road on."""
+    kept = np.zeros_like(seen)
+    highest = np.full(len(low), chosen.step_m)
+    for cell in range(low.shape[1]):
+        with np.errstate(invalid="ignore"):
+            kept[:, cell] = seen[:, cell] & (low[:, cell] <= highest)
+        rising = highest + chosen.slope * across_m
+        highest = np.where(kept[:, cell], np.minimum(low[:, cell] + chosen.rise_m, rising), rising)
+    return kept
 
 
 def without_feet(

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from veduta.drive.build.behind import Behind, find_behind
 from veduta.drive.build.frame import ColumnFrame, ColumnPoints
 from veduta.drive.build.ground import Ground, find_ground, without_feet
 from veduta.drive.build.main_depth import MainDepth, find_main_depth
@@ -46,7 +47,8 @@ class Layers:
     """What was found in a segment. kind: (n,) uint8 `PointClass` of each point.
 
     first, background, foreground: (r, c) float32 depth images (m), NaN where there is no point.
-    wall: (r, c) where the background is not ground. above: (n,) over the ground (m).
+    wall: (r, c) where the background is not ground. above: (n,) over the ground (m). behind: walls
+    behind balconies and in arcades.
     """
 
     points: ColumnPoints
@@ -58,6 +60,7 @@ class Layers:
     background: NDArray[np.float32]
     foreground: NDArray[np.float32]
     wall: NDArray[np.bool_]
+    behind: Behind
 
 
 def split_layers(
@@ -86,6 +89,8 @@ def split_layers(
     row = frame.rows_of(points.angle)
     behind &= kind == PointClass.UNCLASSIFIED
     kind[_through_glass(points, row, kind, behind, frame, chosen)] = PointClass.GLASS
+    more = find_behind(points, row, above, on_ground, depths.main, frame)
+    kind[more.of_walls(points, row, above) & ~on_ground] = PointClass.BUILDING
     images = {
         name: depth_image(points, row, chosen_points, frame, share)
         for name, chosen_points, share in (
@@ -99,7 +104,7 @@ def split_layers(
     background = np.where(wall, images["building"], images["ground"])
     return Layers(
         points, kind, above, ground, depths,
-        images["first"], background, images["foreground"], wall,
+        images["first"], background, images["foreground"], wall, more,
     )  # fmt: skip
 
 
