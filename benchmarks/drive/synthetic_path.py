@@ -140,6 +140,7 @@ def main() -> None:
         f"{', beams of 15 mrad, a street in bends of 90 m' if made else ''}) every 0.25 m;"
         " surface model of 1 m cells with crowns, cars and errors; start"
         f" {OFF_M} m and {OFF_DEG} degrees off.",
+        "Seconds are by the clock and count the machine's other work.",
     ])  # fmt: skip
 
 

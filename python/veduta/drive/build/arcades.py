@@ -122,7 +122,9 @@ def find_arcades(
     for _ in range(2):
         _share_walls(openings, points, row, off, frame.spacing_m, chosen)
         openings.reverse()
-    beams = _met(points, row, frame)
+    with np.errstate(invalid="ignore"):
+        before = (off < -chosen.front_m) & ~on_ground
+    beams = _Beams.of(points, row, before, frame)
     found = Arcades(np.full(len(main), np.nan), np.zeros(len(main), dtype=np.int64))
     for group in _groups(openings, wall, frame.spacing_m, chosen):
         if _without_pane(beams, group, wall, frame, chosen):
@@ -241,35 +243,49 @@ def _tops(group: list[_Opening], lintels: Rows) -> list[Rows]:
     return result
 
 
-def _met(points: ColumnPoints, row: Rows, frame: ColumnFrame) -> tuple[Mask, float]:
-    """(r, c) pixels from which something came back, and those between the beams of a coarse scanner;
-    how many rows there are to a beam.
+@dataclass(frozen=True, eq=False)
+class _Beams:
+    """met: (r, c) pixels from which something came back, and those between the beams of a coarse
+    scanner. hidden: (r, c) of them those before which something stands. pitch: rows to a beam.
     """
-    met = np.zeros(frame.shape, dtype=bool)
-    met[row[row >= 0], points.column[row >= 0]] = True
-    gaps = np.diff(np.flatnonzero(met.T.ravel()))
-    usual = int(np.median(gaps)) if len(gaps) else 1
-    pitch = float(gaps[gaps <= 2 * usual].mean()) if len(gaps) else 1.0
-    return ndimage.binary_dilation(met, np.ones((usual | 1, 1), dtype=bool)), pitch
+
+    met: Mask
+    hidden: Mask
+    pitch: float
+
+    @classmethod
+    def of(cls, points: ColumnPoints, row: Rows, before: Mask, frame: ColumnFrame) -> _Beams:
+        """before: (n,) points that stand before the front and are no ground."""
+        met, hidden = np.zeros(frame.shape, dtype=bool), np.zeros(frame.shape, dtype=bool)
+        met[row[row >= 0], points.column[row >= 0]] = True
+        before = before & (row >= 0)
+        hidden[row[before], points.column[before]] = True
+        gaps = np.diff(np.flatnonzero(met.T.ravel()))
+        usual = int(np.median(gaps)) if len(gaps) else 1
+        pitch = float(gaps[gaps <= 2 * usual].mean()) if len(gaps) else 1.0
+        near = np.ones((usual | 1, 1), dtype=bool)
+        return cls(
+            ndimage.binary_dilation(met, near), ndimage.binary_dilation(hidden, near), pitch
+        )
 
 
 def _without_pane(
-    beams: tuple[Mask, float], group: list[_Opening], wall: Floats, frame: ColumnFrame,
+    beams: _Beams, group: list[_Opening], wall: Floats, frame: ColumnFrame,
     chosen: ArcadeParameters,
 ) -> bool:  # fmt: skip
     """Whether so few beams onto the floor are missing that no pane can stand before it."""
-    met, pitch = beams
     # Beams at the edges of openings meet the piers in part.
     columns = np.concatenate([one.columns[1:-1] for one in group])
     back = np.concatenate([np.full(len(one.columns) - 2, one.back) for one in group])
     down = np.tan(np.minimum(frame.angles_rad, -1e-3))[:, None]
     reach = (frame.road_m - frame.origins[:, 2])[columns] / down
     front = wall[columns]
-    floor = (reach > front + chosen.floor_m) & (reach < front + back - chosen.floor_m)
-    before = (reach > front - chosen.before_m) & (reach < front - chosen.floor_m)
+    free = ~beams.hidden[:, columns]
+    floor = free & (reach > front + chosen.floor_m) & (reach < front + back - chosen.floor_m)
+    before = free & (reach > front - chosen.before_m) & (reach < front - chosen.floor_m)
     if not floor.any():
         return False
-    hits, count = met[:, columns], floor.sum() / pitch
+    hits, count = beams.met[:, columns], floor.sum() / beams.pitch
     pavement = float(hits[before].mean()) if before.any() else 1.0
     lost = count * max(pavement - float(hits[floor].mean()), 0.0)
     fewest = chosen.pane * count - _SIGMAS * np.sqrt(chosen.pane * (1.0 - chosen.pane) * count)
