@@ -11,6 +11,7 @@ import argparse
 import time
 from collections.abc import Callable
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -83,7 +84,8 @@ def measured(kind: str, film: Filmed) -> Row:
     raw = differing(film.frames, given_background(film.frames, film.background), looks)
     found = silhouettes_of(raw, looks, kind)
     plan = load_plan(kind)
-    seen = fit_limbed(found.masks, found.rows, plan, LimbedLooks(), lambda: None)
+    seen = fit_limbed(found.masks, found.rows, plan, LimbedLooks(), lambda: None,
+                      pictures=film.frames[found.rows])  # fmt: skip
     seconds = time.process_time() - start
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
     deep = seen.fitted.deep * seen.fitted.px_per_length
@@ -102,6 +104,7 @@ def measured(kind: str, film: Filmed) -> Row:
         "chart": _chart(film, animal, found.rows, swapped),
         "cycle": abs(cycle / film.cycle - 1.0), "iou": float(np.median(covers)),
         "trunk": _trunk(film, seen), "deep": _deep(film, seen), "seconds": seconds,
+        "sides": 1.0 - 0.5 * len(swapped), "limbs": _limbs(film, seen),
     }  # fmt: skip
 
 
@@ -114,15 +117,20 @@ def summed(kind: str, found: list[Row]) -> list[Row]:
         return {"what": f"{kind}: {what}", "value": float(np.median(values)), "worst clip": worst,
                 "bound": bound}  # fmt: skip
 
+    sides = {"what": f"{kind}: pairs of legs whose near one is told", "bound": "",
+             "value": float(np.mean([one["sides"] for one in found])),
+             "worst clip": min(float(one["sides"]) for one in found)}  # fmt: skip
     return [
         row("joints within 5 % of the length", "joints", "0.95", most=False),
         row("joints from the truth, median (of the length)", "joint", ""),
         row("frames in which the chart of a foot is right", "chart", "0.95", most=False),
         row("cycle off by", "cycle", "0.03"),
         row("trunk's length off by", "trunk", "0.05"),
+        row("lengths of legs off by", "limbs", "0.05"),
         row("body's thickness off by", "deep", "0.1"),
         row("IoU with the true silhouettes, median frame", "iou", "0.85", most=False),
         row("figure of a clip, processor time (s)", "seconds", "5"),
+        *([sides] if kind == "quadruped" else []),
     ]
 
 
@@ -192,6 +200,29 @@ def _trunk(film: Filmed, seen: LimbedSeen) -> float:
     ends = {limb.part.name: joints[:, figure.start[limb.segments[0]]] for limb in figure.feet()}
     away = np.linalg.norm(ends["front_leg"] - ends["hind_leg"], axis=1)
     return abs(float(np.median(away)) / film.lengths["trunk"] - 1.0)
+
+
+def _limbs(film: Filmed, seen: LimbedSeen) -> float:
+    """The bones of a leg that both have, one after the other; the mean over pairs of legs."""
+    names, fitted = seen.fitted.figure.names, seen.fitted
+    joints = fitted.joints() * fitted.px_per_length
+    off = []
+    for chain in (("elbow", "wrist", "front_toe"), ("knee", "hock", "hind_toe"),
+                  ("elbow", "front_toe"), ("knee", "hind_toe")):  # fmt: skip
+        own = [f"{name}_left" for name in chain]
+        if not all(name in film.joints and name in names for name in own):
+            continue
+        if len(chain) == 2 and f"{'wrist' if chain[0] == 'elbow' else 'hock'}_left" in names:
+            continue
+        true = np.mean([_chain(film.joints[a], film.joints[b]) for a, b in pairwise(own)])
+        rows = [names.index(name) for name in own]
+        mine = np.mean([_chain(joints[:, a], joints[:, b]) for a, b in pairwise(rows)])
+        off.append(abs(float(mine / true) - 1.0))
+    return float(np.mean(off))
+
+
+def _chain(first: Floats, second: Floats) -> float:
+    return float(np.median(np.linalg.norm(second - first, axis=1)))
 
 
 def _deep(film: Filmed, seen: LimbedSeen) -> float:

@@ -71,6 +71,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
             found.masks, footage.number[found.rows], plan, LimbedLooks(),
             lambda: work.progress("figure", 0.5),
             {name: places[found.rows] for name, places in pins.items()},
+            footage.frames[found.rows],
         )  # fmt: skip
         step.counts["segments"] = len(seen.fitted.figure.start)
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)

@@ -15,7 +15,8 @@ from veduta.fauna.document.schema import Length, Source
 from veduta.fauna.motion.feet import FeetLooks, feet_down, gait_name, ground_speed, step_of
 from veduta.fauna.motion.figure import Floats, figure_of, posed
 from veduta.fauna.motion.planting import phases_down, planted_cycle
-from veduta.fauna.read.fit import Fit, FitLooks, cycle_basis
+from veduta.fauna.read.basis import FitLooks, cycle_basis
+from veduta.fauna.read.fit import Fit
 from veduta.fauna.read.windows import repeat_of, windows_of
 from veduta.run.errors import InputError
 

@@ -14,7 +14,8 @@ from veduta.fauna.motion.figure import figure_of
 from veduta.fauna.options import FootageOptions
 from veduta.fauna.pins_recipe import pins_of
 from veduta.fauna.read.annotated import read_annotated
-from veduta.fauna.read.fit import Fit, FitLooks, spline_basis
+from veduta.fauna.read.basis import FitLooks, spline_basis
+from veduta.fauna.read.fit import Fit
 from veduta.fauna.read.footage import Footage
 from veduta.fauna.read.joints import MarkedJoints, read_joints, written_joints
 from veduta.fauna.read.silhouettes import Silhouettes

@@ -18,8 +18,10 @@ Chart = NDArray[np.bool_]
 class FeetLooks:
     """When a foot stands: it goes back under the body as fast as the ground does, and is low."""
 
-    slowest: float = 0.45
-    """It goes back by this share of the ground's speed at least."""
+    slowest: float = 0.2
+    """It goes back by this share of the ground's speed at least: harmonics round off the moments in
+    which a foot comes down and goes up, and in their middle it has little speed.
+    """
     lift: float = 0.8
     """And is lower than this share of what it is lifted to: fitted feet are not sharp."""
     low: float = 0.02

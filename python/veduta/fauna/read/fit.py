@@ -1,75 +1,21 @@
-"""The figure of a body plan fitted to silhouettes: its shape for all frames, its pose through time.
-
-Angles are sums of a basis in time. Of footage with cycles these are the harmonics of the cycle, and
-the right legs do half a cycle later what the left ones do: a walk, trot or pace has few numbers,
-which all frames tell together. Without cycles they are cubic splines, and each leg has its own.
-"""
+"""The figure of a body plan fitted to silhouettes: one shape, and its pose through time."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline
 from scipy.optimize import minimize
 
 from veduta.fauna.motion.figure import Figure, Floats, Ints, back_through, posed
+from veduta.fauna.read.basis import Basis, FitLooks, as_many
 from veduta.fauna.read.occupancy import Cover, cover
 from veduta.fauna.read.windows import Windows
 
 _ROOT = 0.1
 """The root's numbers are in so many lengths: about as much as a step changes them."""
-
-
-@dataclass(frozen=True)
-class FitLooks:
-    """How far shapes and poses may be from the plan's; each is one standard deviation."""
-
-    length: float = 0.25
-    """Of a segment's length, as a logarithm."""
-    deep: float = 0.35
-    """Of its thickness, as a logarithm."""
-    apart: float = 0.05
-    """Of where a limb begins, in lengths; of the far limbs from the near ones half of it."""
-    rest_rad: float = 0.35
-    """Of a joint's mean angle."""
-    swing_rad: float = 0.4
-    """Of the first harmonic of its motion; the k-th has it over k to the power 1.5."""
-    root: float = 0.06
-    """Of the root's acceleration between frames, in lengths."""
-    pin: float = 20.0
-    """The loss of a marked joint that is a length away; they pull by the square."""
-    beyond: float = 20.0
-    """The loss of a joint that is a length outside of the windows, where no cell is looked at; by
-    the square, too.
-    """
-    weight: float = 1e-3
-    """Of all that beside the silhouettes: the loss of a deviation in one number."""
-    hanging: float = 0.5
-    """What swings by itself, as a tail, moves so much less than a leg."""
-    freer: float = 0.3
-    """Each segment of a leg moves so much more than the one before it."""
-    harmonics: int = 4
-    spline_frames: float = 3.5
-    """Without cycles: frames between the knots."""
-
-
-@dataclass(frozen=True, eq=False)
-class Basis:
-    """near, far: (t, m) what a left and a right limb's angles are sums of; spread: (m,) how large
-    each share may be. shared: whether both sides have the same shares.
-    """
-
-    near: Floats
-    far: Floats
-    spread: Floats
-    shared: bool
-
-    def of(self, rows: Ints) -> Basis:
-        """In some of the frames."""
-        return replace(self, near=self.near[rows], far=self.far[rows])
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,35 +39,6 @@ class Fitted:
     def joints(self) -> Floats:
         """(t, j, 2) from the windows' middles, in lengths."""
         return posed(self.figure, self.root, self.angles, self.length, self.apart).joints
-
-
-def cycle_basis(
-    frames: Floats, cycle: float, looks: FitLooks, harmonics: int | None = None
-) -> Basis:
-    """Harmonics of a cycle of so many frames. frames: (t,) their numbers."""
-    order = np.arange(1, (harmonics or looks.harmonics) + 1)
-
-    def at(phase: Floats) -> Floats:
-        turn = 2.0 * np.pi * phase[:, None] * order
-        return np.concatenate([np.ones((len(phase), 1)), np.cos(turn), np.sin(turn)], axis=1)
-
-    phase = frames / cycle
-    swing = looks.swing_rad / order**1.5
-    spread = np.concatenate([[looks.rest_rad], swing, swing])
-    return Basis(at(phase), at(phase + 0.5), spread, shared=True)
-
-
-def spline_basis(frames: Floats, looks: FitLooks) -> Basis:
-    """Cubic splines through time; the first share is the mean angle."""
-    first, last = float(frames[0]), float(frames[-1])
-    inner = max(1, round((last - first) / looks.spline_frames))
-    knots = np.concatenate(
-        [[first] * 3, np.linspace(first, last + 1e-6, inner + 1), [last + 1e-6] * 3]
-    )
-    splines = BSpline.design_matrix(frames, knots, 3).toarray()
-    near = np.concatenate([np.ones((len(frames), 1)), splines], axis=1)
-    spread = np.concatenate([[looks.rest_rad], np.full(near.shape[1] - 1, looks.swing_rad)])
-    return Basis(near, near, spread, shared=False)
 
 
 class Fit:
@@ -153,10 +70,12 @@ class Fit:
         spread[:, 1:] *= (1.0 + looks.freer * place)[self.groups, None]
         self.spread = spread / stiff[self.groups, None]
         count = len(windows.shares)
+        hung = np.array([looks.hung if limb.part.ground else 1.0 for limb in figure.limbs])
+        self.apart = looks.apart * np.stack([hung, np.ones(len(hung))], axis=1)
         sizes = {
             "root": (count, 2), "length": (len(figure.start),), "deep": (len(figure.deep),),
             "apart": (len(figure.limbs), 2), "aside": (len(figure.limbs), 2),
-            "shares": (len(self.groups), basis.near.shape[1]),
+            "shares": (len(self.groups), basis.near.shape[1]), "size": (1,),
         }  # fmt: skip
         self.slots: dict[str, tuple[slice, tuple[int, ...]]] = {}
         at = 0
@@ -174,21 +93,27 @@ class Fit:
     def unpacked(self, numbers: Floats) -> tuple[Floats, Floats, Floats, Floats, Floats]:
         """root, angles, length, deep, apart of a vector of numbers."""
         looks, figure = self.looks, self.figure
-        length = figure.length * np.exp(
-            looks.length * self.part(numbers, "length")[self.twin_segment]
-        )
-        deep = figure.deep * np.exp(looks.deep * self.part(numbers, "deep")[self.twin_joint])
-        own = looks.apart * self.part(numbers, "apart")[self.twin_limb]
+        size = self._size(numbers)
+        length = np.exp(looks.length * self.part(numbers, "length")[self.twin_segment])
+        deep = np.exp(looks.deep * self.part(numbers, "deep")[self.twin_joint])
+        own = self.apart * self.part(numbers, "apart")[self.twin_limb]
         right = np.array([limb.side == "right" for limb in figure.limbs])
         if self.top:
             own = np.where(right[:, None], own * np.array([1.0, -1.0]), own)
         else:
-            aside = 0.5 * looks.apart * self.part(numbers, "aside")[self.twin_limb]
+            aside = 0.5 * self.apart * self.part(numbers, "aside")[self.twin_limb]
             own = own + np.where(right[:, None], aside, 0.0)
         swing = (self.part(numbers, "shares") * self.spread)[self.group]
         angles = np.where(self.far, self.basis.far @ swing.T, self.basis.near @ swing.T)
         angles = figure.rest + self.sign * angles
-        return _ROOT * self.part(numbers, "root"), angles, length, deep, figure.apart + own
+        return (
+            _ROOT * self.part(numbers, "root"), angles, size * figure.length * length,
+            size * figure.deep * deep, size * (figure.apart + own),
+        )  # fmt: skip
+
+    def _size(self, numbers: Floats) -> float:
+        """How much larger than the plan the animal is in the lengths of the start."""
+        return float(np.exp(self.looks.size * self.part(numbers, "size")[0]))
 
     def loss(
         self, numbers: Floats, px_per_length: float, soft: float
@@ -213,11 +138,11 @@ class Fit:
         np.add.at(
             self.part(gradient, "length"), self.twin_segment, by_length * length * looks.length
         )
-        np.add.at(
-            self.part(gradient, "deep"), self.twin_joint,
-            seen.by_deep.sum(axis=0) / count * deep * looks.deep,
-        )  # fmt: skip
-        self._back_apart(gradient, by_apart)
+        by_deep = seen.by_deep.sum(axis=0) / count * deep
+        np.add.at(self.part(gradient, "deep"), self.twin_joint, by_deep * looks.deep)
+        by_size = (by_length * length).sum() + by_deep.sum() + (by_apart * apart).sum()
+        self.part(gradient, "size")[0] = looks.size * by_size
+        self._back_apart(gradient, by_apart * self._size(numbers))
         by_angles = by_angles * self.sign
         by_swing = np.where(
             self.far[:, None], by_angles.T @ self.basis.far, by_angles.T @ self.basis.near
@@ -258,11 +183,11 @@ class Fit:
 
     def _back_apart(self, gradient: Floats, by_apart: Floats) -> None:
         right = np.array([limb.side == "right" for limb in self.figure.limbs])[:, None]
-        own = self.looks.apart * by_apart
+        own = self.apart * by_apart
         if self.top:
             own = np.where(right, own * np.array([1.0, -1.0]), own)
         else:
-            aside = np.where(right, 0.5 * self.looks.apart * by_apart, 0.0)
+            aside = np.where(right, 0.5 * self.apart * by_apart, 0.0)
             np.add.at(self.part(gradient, "aside"), self.twin_limb, aside)
         np.add.at(self.part(gradient, "apart"), self.twin_limb, own)
 
@@ -289,6 +214,32 @@ class Fit:
             self.figure, px_per_length, root.copy(), angles, length, deep, apart, numbers, loss
         )
 
+    def other_way_round(self, numbers: Floats, part: str) -> Floats:
+        """The numbers of the same silhouettes (from the side) with what the left legs of a part do
+        done by the right ones.
+        """
+        found = numbers.copy()
+        left, right = (
+            next(limb for limb in self.figure.limbs if limb.name == f"{part}_{side}")
+            for side in ("left", "right")
+        )
+        rows = {int(segment): row for row, segment in enumerate(self.groups)}
+        shares = self.part(found, "shares")
+        for mine, theirs in zip(left.segments, right.segments, strict=True):
+            if self.basis.shared:
+                # Half a cycle later every second harmonic, from the first on, is turned round.
+                count = (shares.shape[1] - 1) // 2
+                turned = 1.0 - 2.0 * (np.arange(count) % 2 == 0)
+                shares[rows[mine], 1:] *= np.concatenate([turned, turned])
+            else:
+                both = [rows[mine], rows[theirs]]
+                shares[both] = shares[both[::-1]]
+        limb = self.twin_limb[self.figure.limbs.index(left)]
+        aside = self.part(found, "aside")
+        self.part(found, "apart")[limb] += 0.5 * aside[limb]
+        aside[limb] *= -1.0
+        return found
+
     def moved_to(self, other: Fit, numbers: Floats) -> Floats:
         """These numbers for another figure, basis or frames of the same animal.
 
@@ -310,27 +261,13 @@ class Fit:
             there, here = (list(column) for column in zip(*both, strict=True))
             own_rows = self.part(numbers, name)[there]
             if name == "shares":
-                own_rows = _as_many(own_rows, self.basis, other.basis)
+                own_rows = as_many(own_rows, self.basis, other.basis)
             other.part(found, name)[here] = own_rows
+        other.part(found, "size")[:] = self.part(numbers, "size")
         root = self.part(numbers, "root")
         for axis in (0, 1):
             other.part(found, "root")[:, axis] = np.interp(other.frames, self.frames, root[:, axis])
         return found
-
-
-def _as_many(shares: Floats, own: Basis, other: Basis) -> Floats:
-    """Shares of a basis as those of another with more harmonics, or of other splines."""
-    count = other.near.shape[1]
-    if shares.shape[1] == count:
-        return shares
-    found = np.zeros((len(shares), count))
-    found[:, 0] = shares[:, 0]
-    if own.shared and other.shared:
-        few, many = (own.near.shape[1] - 1) // 2, (count - 1) // 2
-        for begins, whole in ((0, 0), (few, many)):
-            kept = shares[:, 1 + begins : 1 + begins + min(few, many)]
-            found[:, 1 + whole : 1 + whole + kept.shape[1]] = kept
-    return found
 
 
 def _seen_from_above(figure: Figure) -> bool:

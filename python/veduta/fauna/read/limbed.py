@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 
 from veduta.fauna.document.plan import BodyPlan
 from veduta.fauna.motion.figure import Floats, figure_of
-from veduta.fauna.read.fit import Basis, Fit, FitLooks, Fitted, cycle_basis, spline_basis
+from veduta.fauna.read.basis import Basis, FitLooks, cycle_basis, spline_basis
+from veduta.fauna.read.fit import Fit, Fitted
+from veduta.fauna.read.nearer import Nearer
+from veduta.fauna.read.sides import sides_told
 from veduta.fauna.read.silhouettes import Masks
 from veduta.fauna.read.starts import Start, StartLooks, best_start, legs_together
 from veduta.fauna.read.windows import Windows, middles_of, repeat_of, windows_of
@@ -41,7 +44,8 @@ class LimbedLooks:
 class LimbedSeen:
     """fitted: the figure in the frames. windows: what it was fitted to. cycle: frames of a stride,
     None: none was found. cycle_score: how well silhouettes repeat, 0..1. missing: optional parts
-    that the silhouettes do not show. frames: (t,) their numbers.
+    that the silhouettes do not show. frames: (t,) their numbers. nearer: what the pictures told of
+    near and far legs, pair by pair.
     """
 
     fitted: Fitted
@@ -50,15 +54,18 @@ class LimbedSeen:
     cycle: float | None
     cycle_score: float
     missing: tuple[str, ...]
+    nearer: tuple[Nearer, ...] = ()
 
 
 def fit_limbed(
     masks: Masks, frames: NDArray[np.int64], plan: BodyPlan, looks: LimbedLooks,
     heard: Callable[[], None], pins: Mapping[str, Floats] | None = None,
+    pictures: NDArray[np.uint8] | None = None,
 ) -> LimbedSeen:  # fmt: skip
     """The figure of a plan in silhouettes (t, h, w) of the numbered frames.
 
-    pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere.
+    pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere. pictures: (t, h, w, 3) of
+    the frames: they tell near legs from far ones.
     """
     optional = {part.name for part in plan.parts if part.optional}
     number = frames.astype(np.float64)
@@ -78,17 +85,21 @@ def fit_limbed(
     )
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
-        start = legs_together(start, looks.start, heard)
     fine = replace(windows_of(masks, looks.fine_cells, middle), pins=pins or {})
     if start.fit.windows.faces < 0.0:
         fine = fine.mirrored()
+    if cycle is not None:
+        start = legs_together(start, fine, looks.start, heard)
     fit = Fit(figure, fine, start.fit.basis, looks.fit, number)
     numbers, scale = start.numbers, start.px_per_length
     for soft, steps in zip(looks.soft, looks.steps, strict=True):
         numbers, _ = fit.improve(numbers, scale, soft, steps, heard)
     fit, numbers, missing = _grown(fit, numbers, scale, plan, looks, heard)
     fitted = fit.fitted(numbers, scale, looks.soft[-1])
-    return LimbedSeen(fitted, number, fine, cycle, score, missing)
+    sided, nearer = sides_told(fit, numbers, fitted, pictures)
+    if sided is not numbers:
+        fitted = fit.fitted(sided, scale, looks.soft[-1])
+    return LimbedSeen(fitted, number, fine, cycle, score, missing, nearer)
 
 
 def _basis(

@@ -74,13 +74,8 @@ def described_limbs(
     if plan.view == "top":
         doubts = [FROM_ABOVE]
     else:
-        doubts = [] if _sides_marked(seen) else [
-            "silhouettes do not tell near legs from far ones: the left ones may be the right"
-            " ones, half a cycle later"
-        ]  # fmt: skip
-        doubts += [
-            FROM_THE_SIDE,
-        ]
+        doubts = _doubts_of_sides(seen)
+        doubts.append(FROM_THE_SIDE)
     gaits: list[LimbedGait] = []
     if seen.cycle is None:
         doubts.append("no cycle was found in the footage: it holds no gait, only its own motion")
@@ -107,6 +102,21 @@ def described_limbs(
         shape_score=float(np.median(overlaps)), missing=list(seen.missing), gaits=gaits,
         poses=poses, doubts=[*doubts, *assumed],
     )  # fmt: skip
+
+
+def _doubts_of_sides(seen: LimbedSeen) -> list[str]:
+    """Of which pairs of legs nothing tells the near leg from the far one."""
+    if _sides_marked(seen):
+        return []
+    told = {one.part for one in seen.nearer}
+    pairs = {limb.part.name for limb in seen.fitted.figure.feet() if limb.side == "left"}
+    if pairs <= told:
+        return []
+    untold = " and ".join(sorted(name.replace("_", " ") for name in pairs - told))
+    return [
+        f"nothing tells the near {untold} from the far one: the left one may be the right one, half"
+        " a cycle later; a front foot was taken to come down after the hind foot of its side"
+    ]
 
 
 def _sides_marked(seen: LimbedSeen) -> bool:
@@ -166,11 +176,9 @@ def scaled_animal(seen: LimbedSeen, plan: BodyPlan, frame_s: float) -> Scaled:
     points = (at_rest + np.array([0.0, high])) / unit
     own = _own_plan(plan, figure, points, fitted.deep / unit, seen.missing)
     root = (fitted.root - np.array([float(fitted.root[:, 0].mean()), low])) / unit
-    places = (joints[:, feet] - fitted.root[:, None]) / unit
-    if top:
-        places[..., 1] = 0.0  # how high feet are is not seen from above
-    turns = fitted.angles - stand
     speed = speed_in_pictures(seen, unit * fitted.px_per_length, frame_s)
+    places = _places_of_feet(seen, unit * fitted.px_per_length, even=speed is not None, top=top)
+    turns = fitted.angles - stand
     down = (
         _cycle_down(seen, places, frame_s, speed)
         if seen.cycle is not None
@@ -184,13 +192,37 @@ def speed_in_pictures(seen: LimbedSeen, unit_px: float, frame_s: float) -> float
 
     A camera that stands still, or a canvas, shows that; feet tell it less well.
     """
-    root = seen.windows.in_picture(seen.fitted.root[:, None], seen.fitted.px_per_length)[:, 0]
     times = (seen.frames - seen.frames[0]) * frame_s
-    x = root[:, 0] * seen.windows.faces / unit_px
+    x = _root_ahead(seen) / unit_px
     speed, begin = np.polyfit(times, x, 1)
     gone = float(speed) * float(times[-1])
     off = float(np.abs(x - begin - speed * times).max())
     return float(speed) if gone > _GONE and off < _EVEN * gone else None
+
+
+def _root_ahead(seen: LimbedSeen) -> Floats:
+    """(t,) how far forwards in the pictures the root is, px."""
+    root = seen.windows.in_picture(seen.fitted.root[:, None], seen.fitted.px_per_length)
+    return np.asarray(root[:, 0, 0] * seen.windows.faces)
+
+
+def _places_of_feet(seen: LimbedSeen, unit_px: float, *, even: bool, top: bool) -> Floats:
+    """(t, f, 2) of the feet from the root, in lengths; from above their height is 0.
+
+    even: of an animal that goes evenly through the pictures forwards from an even pace, not from
+    its root, which sways with the spine and where the fit is unsure of it: what stands stands in
+    the pictures.
+    """
+    fitted = seen.fitted
+    feet = [limb.joints[-1] for limb in fitted.figure.feet()]
+    away = (fitted.joints()[:, feet] - fitted.root[:, None]) * (fitted.px_per_length / unit_px)
+    if even:
+        ahead = _root_ahead(seen)
+        pace = np.polyval(np.polyfit(seen.frames, ahead, 1), seen.frames)
+        away[..., 0] += ((ahead - pace) / unit_px)[:, None]
+    if top:
+        away[..., 1] = 0.0
+    return np.asarray(away)
 
 
 def _row_s(seen: LimbedSeen, frame_s: float) -> float:
@@ -257,12 +289,9 @@ def _gait(seen: LimbedSeen, scaled: Scaled, frame_s: float) -> LimbedGait:
         for k, name in enumerate((*figure.segments, "root"))
     ]  # fmt: skip
     cycle_s = cycle * frame_s
-    feet = [limb.joints[-1] for limb in figure.feet()]
-    places = (seen.fitted.joints()[:, feet] - seen.fitted.root[:, None]) * (
-        seen.fitted.px_per_length / scaled.unit_px
+    places = _places_of_feet(
+        seen, scaled.unit_px, even=scaled.speed is not None, top=scaled.plan.view == "top"
     )
-    if scaled.plan.view == "top":
-        places[..., 1] = 0.0
     mean = mean_cycle(places.reshape(len(places), -1), phase).reshape(_PHASES, -1, 2)
     key_s = cycle_s / _PHASES
     down = feet_down(mean, key_s, FeetLooks(), cyclic=True, ground=scaled.speed)

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.fauna.motion.figure import Figure, Floats, Limb, posed
+from veduta.fauna.read.basis import Basis, FitLooks
 from veduta.fauna.read.drawn import drawn_figure
-from veduta.fauna.read.fit import Basis, Fit, FitLooks
+from veduta.fauna.read.fit import Fit
 from veduta.fauna.read.windows import Windows
 
 
@@ -35,8 +36,9 @@ class StartLooks:
     choices: int = 64
     """Of phases of all pairs of legs, at most: of seven pairs and more the first ones."""
     together: int = 3
-    """So many of them go on, in all frames, for so many steps."""
-    together_steps: int = 25
+    """So many of them go on, with edges so sharp, for so many steps each."""
+    sharper: tuple[float, ...] = (0.025, 0.012)
+    sharper_steps: int = 20
     gain: float = 0.005
     """They are kept where the loss is less by this share."""
     stride_rad: float = 0.4
@@ -179,17 +181,18 @@ def _swing(fit: Fit, shares: Floats, limb: Limb, phase: float, tries: StartLooks
         shares[row, 1 + order] = size * np.sin(turn)
 
 
-def legs_together(start: Start, tries: StartLooks, heard: Callable[[], None]) -> Start:
+def legs_together(
+    start: Start, fine: Windows, tries: StartLooks, heard: Callable[[], None]
+) -> Start:
     """The start with all pairs of legs begun anew at once, where they cover more so.
 
     A leg that once swings where nothing is seldom finds back by itself: not while another pair
     covers its place, nor while its length has grown to cover what it should not. So all of them
-    begin at each choice of phases, in the plan's shape, in a few of the frames; the best go on.
+    begin at each choice of phases, in the plan's shape, in a few of the frames. The best go on in
+    fine windows with ever sharper edges: soft ones cover two legs as well the wrong way round.
     """
-    fit = start.fit
-    if not fit.basis.shared:
-        return start
-    legs = _own_legs(fit)
+    fit, scale = start.fit, start.px_per_length
+    legs = _own_legs(fit) if fit.basis.shared else []
     if not legs:
         return start
     rows = _few(len(fit.frames), tries.frames)
@@ -202,19 +205,21 @@ def legs_together(start: Start, tries: StartLooks, heard: Callable[[], None]) ->
         for limb, phase in zip(legs, phases, strict=True):
             _as_planned(less, numbers, limb)
             _swing(less, less.part(numbers, "shares"), limb, phase, tries)
-        numbers, loss = less.improve(
-            numbers, start.px_per_length, tries.soft, tries.again_steps, heard
-        )
+        numbers, loss = less.improve(numbers, scale, tries.soft, tries.again_steps, heard)
         found.append((loss, numbers))
     found.sort(key=lambda one: one[0])
-    best = start
-    for _, few in found[: tries.together]:
-        numbers, loss = fit.improve(
-            less.moved_to(fit, few), start.px_per_length, tries.soft, tries.together_steps, heard
-        )
-        if loss < best.loss * (1.0 - tries.gain):
-            best = Start(fit, numbers, start.px_per_length, loss)
-    return best
+    sharp = Fit(fit.figure, fine.of(rows), less.basis, fit.looks, less.frames)
+    tried = [begun, *(numbers for _, numbers in found[: tries.together])]
+    losses = []
+    for number, numbers in enumerate(tried):
+        for soft in tries.sharper:
+            numbers, loss = sharp.improve(numbers, scale, soft, tries.sharper_steps, heard)
+        tried[number] = numbers
+        losses.append(loss)
+    best = int(np.argmin(losses))
+    if best == 0 or losses[best] > losses[0] * (1.0 - tries.gain):
+        return start
+    return Start(fit, less.moved_to(fit, tried[best]), scale, losses[best])
 
 
 def _own_legs(fit: Fit) -> list[Limb]:

@@ -85,10 +85,11 @@ def film_quadruped(
     thick = np.array([0.13, 0.075, like.thin, like.thin]) * unit
     body = px([hip, 0.5 * (hip + shoulder) - [0.0, 0.02], shoulder, neck, nose])
     wide = np.array([0.9 * like.deep, like.deep, like.deep, 0.11, 0.06]) * unit
-    tubes = [Tube(px(legs[n]), thick, 0.8) for n in ("hind_leg_right", "front_leg_right")]
+    # It goes to the right, so its right legs are the near ones.
+    tubes = [Tube(px(legs[n]), thick, 0.8) for n in ("hind_leg_left", "front_leg_left")]
     tubes.append(Tube(px(tail), np.array([0.06, 0.05, 0.035, 0.03]) * unit))
     tubes.append(Tube(body, wide))
-    tubes += [Tube(px(legs[n]), thick, 1.12) for n in ("hind_leg_left", "front_leg_left")]
+    tubes += [Tube(px(legs[n]), thick, 1.12) for n in ("hind_leg_right", "front_leg_right")]
     # Feet touch their shadow at the ground; what is above falls before it.
     lying = np.array([[1.0, 0.12, -0.12 * ground], [0.0, -1.0 / 7.0, ground * (1.0 + 1.0 / 7.0)]])
     cast = lying if shadow else None
@@ -145,7 +146,7 @@ def film_lizard(
         middle = hip[:, 0] + (0.6 if front else 0.0) + (0.1 if front else -0.02)
         toe, stands = _foot(middle, (time / cycle + begin) % 1.0, stride, duty, cycle, 0.0)
         toe = np.stack([toe[:, 0], np.full(frames, sign * 0.8 * leg)], axis=1)
-        bend = -sign if front else sign
+        bend = sign if front else -sign  # elbows point back, knees forward
         knee = _bent(hung, toe, 0.55 * leg, 0.6 * leg, bend)
         legs.append([hung, knee, toe])
         down[name] = stands
