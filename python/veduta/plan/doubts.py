@@ -13,7 +13,7 @@ from veduta.plan.house.flights import stairwells
 from veduta.plan.house.lines import footprint, wall_lines
 from veduta.plan.house.space import Space, filled
 from veduta.plan.names.strays import stray_names
-from veduta.plan.remarks import closed_in, plans_apart
+from veduta.plan.remarks import PLOT_NOTE, closed_in, plans_apart
 from veduta.plan.scale.estimate import scale_notes
 from veduta.plan.tour.find import Tour
 from veduta.plan.upper_floor import upper_floor_doubts
@@ -41,6 +41,7 @@ def doubts(document: PlanDocument, tour: Tour | None, spaces: Sequence[Space] = 
             *scale_notes(storey.scale),
             *_apart(storey),
             *_strays(storey),
+            *_plot(storey),
             *_closed_in(storey),
             *_doubtful(storey),
             *storey.doubts,
@@ -111,7 +112,13 @@ def _strays(storey: Storey) -> list[str]:
     ]
     outlines = [np.array(room.outline_m, dtype=np.float64) for room in storey.rooms]
     points = [one.at_m for one in storey.junctions]
-    return [f"{note}." for note in stray_names(outlines, points, texts)]
+    closed = sum(room.area_m2 for room in storey.rooms if not room.outdoors)
+    return [f"{note}." for note in stray_names(outlines, points, texts, closed)]
+
+
+def _plot(storey: Storey) -> list[str]:
+    """That walls were left out as those around the plot."""
+    return [f"{PLOT_NOTE}." for _ in range(PLOT_NOTE in storey.notes)]
 
 
 def _closed_in(storey: Storey) -> list[str]:

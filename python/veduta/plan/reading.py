@@ -42,6 +42,7 @@ from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.openings.ticks import panels_beyond, tick_pieces
+from veduta.plan.remarks import PLOT_NOTE
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
@@ -68,12 +69,6 @@ SIZINGS = 2
 
 MOST_WALLS = 250
 """A reading with more stands: each takes a minute, and most of them are noise."""
-
-
-PLOT_NOTE = (
-    "a ring of walls stands around the plot, free of the house: it is a fence, is left out, and the"
-    " yard within it is garden"
-)
 
 
 @dataclass(frozen=True)

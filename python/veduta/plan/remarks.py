@@ -32,6 +32,12 @@ _SHOWN = 8
 R = TypeVar("R", DrawnRoom, Room)
 _EDGES = {"left": (-1, 0), "right": (1, 0), "upper": (0, -1), "lower": (0, 1)}
 
+PLOT_NOTE = (
+    "a ring of walls stands around the plot, free of the house: it is a fence, is left out, and the"
+    " yard within it is garden"
+)
+"""What is said where the walls of a plot were taken for a fence."""
+
 
 def remarks(drawn: Drawn, scan_size_px: Sequence[int] | None, metres_per_px: float) -> list[str]:
     """The notes of a storey. `scan_size_px` is (height, width) before it was laid straight.

@@ -12,6 +12,7 @@ import pytest
 from sample_plan import DEPTH_M, OUTER_M, WIDTH_M, sample_plan, sample_storey
 
 from veduta.plan.drawing import draw
+from veduta.plan.flat_walls import external_walls
 from veduta.plan.house.build import build_house
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.dxf import plan_dxf
@@ -75,6 +76,32 @@ def test_walls_have_quantities_axes_and_connections(model: ifcopenshell.file) ->
     ]
     assert external.count(True) == 12
     assert external.count(False) == 2
+
+
+@pytest.mark.parametrize(
+    ("flat", "external"),
+    [(False, ["east", "north-1", "north-2", "south-1", "south-2", "west"]),
+     (True, ["north-1", "north-2", "south-1", "south-2"])],
+)  # fmt: skip
+def test_blank_walls_of_a_flat_are_not_external(flat: bool, external: list[str]) -> None:
+    options = HouseOptions(flat=flat)
+    house = build_house(sample_plan(), options)
+    model = ifcopenshell.file.from_string(house_ifc(house, options).decode())
+    found = [
+        one.Name.split()[-1]
+        for one in model.by_type("IfcWall")
+        if ifcopenshell.util.element.get_psets(one)["Pset_WallCommon"]["IsExternal"]
+    ]
+    assert sorted(found) == external
+
+
+def test_a_door_to_the_landing_makes_no_wall_external() -> None:
+    openings = [one for one in sample_storey().openings if one.id in ("front", "inner", "w2")]
+    storey = sample_storey(openings=openings)
+    assert external_walls(storey, flat=True) == {"north-1", "north-2"}
+    party = [one.model_copy(update={"party": one.id == "east"}) for one in storey.walls]
+    walls = external_walls(storey.model_copy(update={"walls": party}), flat=False)
+    assert walls == {"north-1", "north-2", "south-1", "south-2", "west"}
 
 
 def test_rooms_are_bounded_by_their_walls_and_openings() -> None:

@@ -10,7 +10,8 @@ from shapely.geometry import Point, Polygon
 
 from veduta.plan.document import Text
 from veduta.plan.drawn import Drawn
-from veduta.plan.reading import PLOT_NOTE, read_storey
+from veduta.plan.reading import read_storey
+from veduta.plan.remarks import PLOT_NOTE
 from veduta.plan.walls.fence import fence_pieces
 from veduta.plan.walls.pieces import Piece
 from veduta.synthetic.plans.brochure import brochure_page

@@ -36,6 +36,30 @@ def text(words: str, score: float = 0.95) -> Text:
         ("Planta baixa - 2º pavimento", "2º pavimento", 2),
         ("Segundo andar", "Segundo andar", 2),
         ("3. krs", "3. krs", 3),
+        ("PIANO TERRA", "Piano terra", 0),
+        ("Piano primo", "Piano primo", 1),
+        ("Secondo piano", "Secondo piano", 2),
+        ("Piano interrato", "Piano interrato", -1),
+        ("Planta baja", "Planta baja", 0),
+        ("Primera planta", "Primera planta", 1),
+        ("PLANTA ALTA", "Planta alta", 99),
+        ("Planta sótano", "Planta sótano", -1),
+        ("Begane grond", "Begane grond", 0),
+        ("1e verdieping", "1e verdieping", 1),
+        ("Tweede verdieping", "Tweede verdieping", 2),
+        ("Bottenvåning", "Bottenvåning", 0),
+        ("ÖVERVÅNING", "Övervåning", 99),
+        ("Källarplan", "Källarplan", -1),
+        ("1F", "1F", 0),
+        ("2F", "2F", 1),
+        ("B1F", "B1F", -1),
+        ("1階", "1階", 0),
+        ("2階", "2階", 1),
+        ("EG", "EG", 0),
+        ("OG", "OG", 99),
+        ("DG", "DG", 99),
+        ("Grundriss EG", "EG", 0),
+        ("קומת קרקע", "קומת קרקע", 0),
     ],
 )
 def test_titles(line: str, name: str, rank: int) -> None:
@@ -51,7 +75,18 @@ def test_the_titles_of_all_languages_are_in_order(language: str) -> None:
 
 @pytest.mark.parametrize(
     "line",
-    ["Floor plan", "Plan", "Floor", "First", "Bedroom 1", "12", "Loft", "first floor flat 2"],
+    [
+        "Floor plan",
+        "Plan",
+        "Floor",
+        "First",
+        "Bedroom 1",
+        "12",
+        "Loft",
+        "first floor flat 2",
+        "og",
+        "Planta",
+    ],
 )
 def test_what_names_no_storey(line: str) -> None:
     assert title_of(line) is None

@@ -23,6 +23,17 @@ def test_a_name_in_no_room_is_told() -> None:
     assert note == "'Living room': written where no closed room was found"
 
 
+def test_the_area_that_is_printed_beside_it_is_told_and_added() -> None:
+    texts = [written("Living room", 450, 150), written("18,5 m2", 450, 168)]
+    far = written("30 m2", 450, 280)
+    (note,) = stray_names([LEFT], JUNCTIONS, [*texts, far], 40.0)
+    assert note == (
+        "'Living room' (18.5 m²): written where no closed room was found; 58.5 m² with it"
+    )
+    (plain,) = stray_names([LEFT], JUNCTIONS, [texts[0], far], 40.0)
+    assert plain == "'Living room': written where no closed room was found"
+
+
 def test_titles_terraces_sizes_and_what_is_hardly_read_are_not() -> None:
     texts = [
         written("Kitchen", 300, 350),  # below all walls: a title

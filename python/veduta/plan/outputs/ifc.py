@@ -72,8 +72,8 @@ def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> 
         model.contain(storeys[-1], [roof], "roof")
     kinds = ("IfcWall", "IfcDoor", "IfcWindow", "IfcSlab", "IfcRoof", "IfcSpace")
     named = by_name(one for kind in kinds for one in model.file.by_type(kind))
-    describe(describer, house, named, options.slab)
-    add_paths(model, house, named)
+    describe(describer, house, named, options)
+    add_paths(model, house, named, flat=options.flat)
     return model.content()
 
 

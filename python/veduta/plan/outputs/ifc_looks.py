@@ -8,9 +8,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from veduta.place.material import Colour
+from veduta.plan.flat_walls import external_walls
 from veduta.plan.house.build import House
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space
+from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_model import Entity, Model
 
 _LOOKS: dict[str, tuple[str, tuple[float, float, float], float]] = {
@@ -190,19 +192,20 @@ class Describer:
 
 
 def describe(
-    describer: Describer, house: House, named: Mapping[str, Entity], slab_m: float
+    describer: Describer, house: House, named: Mapping[str, Entity], options: HouseOptions
 ) -> None:
     """All elements of a house: named are those of the file, by the names that they have there."""
     for space in house.spaces:
-        height = space.storey.height_m - slab_m
+        height = space.storey.height_m - options.slab
+        external = external_walls(space.storey, flat=options.flat)
         for name in space.lines:
             wall = named.get(f"{space.storey.name} wall {name}")
             if wall is not None:
-                _wall(describer, space, name, wall, height)
+                _wall(describer, space, name, wall, height, is_external=name in external)
         for hole in space.holes:
             filling = named.get(f"{space.storey.name} {hole.opening.id}")
             if filling is not None:
-                _filling(describer, hole, filling)
+                _filling(describer, hole, filling, is_external=hole.line.wall.id in external)
         for room in space.storey.rooms:
             own = named.get(f"{space.storey.name} {room.id}")
             if own is not None:
@@ -215,7 +218,15 @@ def describe(
     describer.finish()
 
 
-def _wall(describer: Describer, space: Space, name: str, entity: Entity, height: float) -> None:
+def _wall(
+    describer: Describer,
+    space: Space,
+    name: str,
+    entity: Entity,
+    height: float,
+    *,
+    is_external: bool,
+) -> None:
     line = space.lines[name]
     wall = line.wall
     kind = "outer wall" if wall.outer else "inner wall"
@@ -227,7 +238,9 @@ def _wall(describer: Describer, space: Space, name: str, entity: Entity, height:
     describer.layered(entity, kind, width)
     use = "SOLIDWALL" if wall.outer else "PARTITIONING"
     describer.typed(entity, "IfcWallType", called, PredefinedType=use)
-    describer.properties(entity, "Pset_WallCommon", {"Reference": called, "IsExternal": wall.outer})
+    describer.properties(
+        entity, "Pset_WallCommon", {"Reference": called, "IsExternal": is_external}
+    )
     describer.quantities(
         entity,
         "Qto_WallBaseQuantities",
@@ -241,7 +254,7 @@ def _wall(describer: Describer, space: Space, name: str, entity: Entity, height:
     describer.provenance(entity, wall.origin, wall.score)
 
 
-def _filling(describer: Describer, hole: Hole, entity: Entity) -> None:
+def _filling(describer: Describer, hole: Hole, entity: Entity, *, is_external: bool) -> None:
     is_door = entity.is_a("IfcDoor")
     kind = "door" if is_door else "window"
     high, wide = hole.high_m - hole.low_m, hole.width_m
@@ -259,9 +272,8 @@ def _filling(describer: Describer, hole: Hole, entity: Entity) -> None:
             PredefinedType="WINDOW", PartitioningType="NOTDEFINED",
         )  # fmt: skip
     word = kind.capitalize()
-    external = hole.line.wall.outer
     describer.properties(
-        entity, f"Pset_{word}Common", {"Reference": called, "IsExternal": external}
+        entity, f"Pset_{word}Common", {"Reference": called, "IsExternal": is_external}
     )
     describer.quantities(
         entity, f"Qto_{word}BaseQuantities", {"Width": wide, "Height": high, "Area": wide * high}

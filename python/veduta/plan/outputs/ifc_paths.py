@@ -6,15 +6,16 @@ from collections import defaultdict
 from collections.abc import Mapping
 from itertools import combinations
 
+from veduta.plan.flat_walls import external_walls
 from veduta.plan.house.build import House
 from veduta.plan.house.space import Space
 from veduta.plan.outputs.ifc_model import Entity, Model
 
 
-def add_paths(model: Model, house: House, named: Mapping[str, Entity]) -> None:
+def add_paths(model: Model, house: House, named: Mapping[str, Entity], *, flat: bool) -> None:
     """Axes of walls, their connections at junctions, and the boundaries of rooms.
 
-    named: the file's elements by their names.
+    named: the file's elements by their names. flat: whether it is one in a larger house.
     """
     axis = model.make(
         "IfcGeometricRepresentationSubContext",
@@ -36,7 +37,7 @@ def add_paths(model: Model, house: House, named: Mapping[str, Entity]) -> None:
                 whole = wall.Representation
                 whole.Representations = [shape, *whole.Representations]
         _connections(model, space, named)
-        _boundaries(model, space, named)
+        _boundaries(model, space, named, external_walls(space.storey, flat=flat))
 
 
 def _connections(model: Model, space: Space, named: Mapping[str, Entity]) -> None:
@@ -58,17 +59,16 @@ def _connections(model: Model, space: Space, named: Mapping[str, Entity]) -> Non
             )  # fmt: skip
 
 
-def _boundaries(model: Model, space: Space, named: Mapping[str, Entity]) -> None:
+def _boundaries(
+    model: Model, space: Space, named: Mapping[str, Entity], external: set[str]
+) -> None:
     """The walls around each room and the doors and windows in them."""
-    walls = {name: line.wall.outer for name, line in space.lines.items()}
-    on = {one.opening.id: one.line.wall.outer for one in space.holes}
+    on = {one.opening.id: one.line.wall.id in external for one in space.holes}
     for room in space.storey.rooms:
         own = named.get(f"{space.storey.name} {room.id}")
         if own is None:
             continue
-        beside = [
-            (f"{space.storey.name} wall {name}", walls.get(name, False)) for name in room.walls
-        ]
+        beside = [(f"{space.storey.name} wall {name}", name in external) for name in room.walls]
         beside += [(f"{space.storey.name} {name}", on.get(name, False)) for name in room.openings]
         for name, outer in beside:
             element = named.get(name)
