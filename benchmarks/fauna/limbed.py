@@ -117,9 +117,10 @@ def summed(kind: str, found: list[Row]) -> list[Row]:
         return {"what": f"{kind}: {what}", "value": float(np.median(values)), "worst clip": worst,
                 "bound": bound}  # fmt: skip
 
-    sides = {"what": f"{kind}: pairs of legs whose near one is told", "bound": "",
-             "value": float(np.mean([one["sides"] for one in found])),
-             "worst clip": min(float(one["sides"]) for one in found)}  # fmt: skip
+    told = [float(one["sides"] or 0.0) for one in found]
+    sides: Row = {"what": f"{kind}: pairs of legs whose near one is told", "bound": "",
+             "value": float(np.mean(told)),
+             "worst clip": min(told)}  # fmt: skip
     return [
         row("joints within 5 % of the length", "joints", "0.95", most=False),
         row("joints from the truth, median (of the length)", "joint", ""),
