@@ -62,10 +62,10 @@ def main() -> None:
     notes = [
         "Drawn clips: veduta.synthetic.animals, which shares no function with the fit; silhouettes"
         " are found in the footage against its background, with noise, a shadow and grass in it."
-        " Every fourth animal has proportions as no plan has them. Which front leg goes with which"
-        " hind leg silhouettes do not tell: each pair is compared the way that fits better. None of"
-        f" these clips (seeds from {FIRST}) was looked at while the fit was made, but two: in seeds"
-        " 105 and (a lizard) 104 it was seen that legs stay in a wrong phase.",
+        " Every fourth animal has proportions as no plan has them. Each pair of legs is compared"
+        " the way that fits better; whether its near one is told right has a row of its own. None"
+        f" of these clips (seeds from {FIRST}) was looked at while the fit was made, but two: in"
+        " seeds 105 and (a lizard) 104 it was seen that legs stay in a wrong phase.",
         "Cat: silhouettes from its left side alone, drawn by OpenCV from the 35 meshes; the model"
         " is judged from 30, 60 and 90 degrees beside that view."
         " The fit's spreads were set with the cat's side view in sight, its other views were not.",

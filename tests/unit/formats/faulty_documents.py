@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 import sys
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import sets_of_cameras as sets
+from faulty_records import Kind, cameras_file, lots_file, text_file
 
 from veduta.cameras import read_cameras
 from veduta.drive.document import load as drive_files
@@ -29,7 +28,6 @@ sys.path.append(str(Path(__file__).parents[1] / "fauna"))
 from swimming import sample_animal
 from walking import walking_limbed
 
-Kind = tuple[Callable[[Path], Path], Callable[[Path], object]]
 _STILL = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 _RULES = """version "2021.0"
 import parts : "parts.cga"
@@ -59,14 +57,6 @@ _KML = """<?xml version="1.0" encoding="UTF-8"?>
 """
 
 
-def _text(name: str, content: str) -> Callable[[Path], Path]:
-    def write(folder: Path) -> Path:
-        (folder / name).write_text(content, "utf-8")
-        return folder / name
-
-    return write
-
-
 def _animal(folder: Path) -> Path:
     save_animal(sample_animal(), folder / "animal.json")
     return folder / "animal.json"
@@ -84,7 +74,7 @@ def _drive(folder: Path) -> Path:
     document = DriveDocument(
         record="log", path_from="given poses", path=poses, segments=[segment], notes=["a note"]
     )
-    return _text("drive.json", document.model_dump_json(by_alias=True, indent=1))(folder)
+    return text_file("drive.json", document.model_dump_json(by_alias=True, indent=1))(folder)
 
 
 def _walk(folder: Path) -> Path:
@@ -97,7 +87,7 @@ def _walk(folder: Path) -> Path:
         start="a", end="b", kind="morph", distance_m=2.0, forth="walk/a.glb", back="walk/b.glb"
     )
     document = WalkDocument(rig=rig, keys=keys, transitions=[way])
-    return _text("walk.json", document.model_dump_json(by_alias=True, indent=1))(folder)
+    return text_file("walk.json", document.model_dump_json(by_alias=True, indent=1))(folder)
 
 
 def _package(folder: Path) -> Path:
@@ -109,25 +99,12 @@ def _package(folder: Path) -> Path:
 
 def _rules(folder: Path) -> Path:
     (folder / "parts.cga").write_text(_PARTS, "utf-8")
-    return _text("town.cga", _RULES)(folder)
+    return text_file("town.cga", _RULES)(folder)
 
 
 def _checked(path: Path) -> object:
     """As `veduta grammar check` does it: faults of the text are listed, not raised."""
     return check_rules(read_rules(path))
-
-
-def _flatgeobuf(folder: Path) -> Path:
-    import pyogrio
-    import shapely
-
-    squares = [shapely.box(20.0 * n, 0.0, 20.0 * n + 12.0, 9.0) for n in range(3)]
-    pyogrio.raw.write(
-        folder / "lots.fgb", np.asarray(shapely.to_wkb(squares), dtype=object),
-        [np.array([6.0, 9.0, 12.0])], ["height"], crs="EPSG:25832", geometry_type="Polygon",
-        driver="FlatGeobuf",
-    )  # fmt: skip
-    return folder / "lots.fgb"
 
 
 def _rig(folder: Path) -> Path:
@@ -136,16 +113,7 @@ def _rig(folder: Path) -> Path:
         {"image_prefix": "front", "ref_sensor": True},
         {"image_prefix": "left", **turned, "cam_from_rig_translation": [0.4, 0.0, 0.0]},
     ]
-    return _text("rig_config.json", json.dumps([{"cameras": cameras}]))(folder)
-
-
-def _cameras(name: str, write: Callable[[Path, list[sets.Camera]], None]) -> Callable[[Path], Path]:
-    def written(folder: Path) -> Path:
-        sets.write_pictures(folder)
-        write(folder, sets.ring())
-        return folder / name
-
-    return written
+    return text_file("rig_config.json", json.dumps([{"cameras": cameras}]))(folder)
 
 
 def _of_folder(path: Path) -> object:
@@ -159,13 +127,13 @@ DOCUMENTS: dict[str, Kind] = {
     "walk.json": (_walk, read_document),
     "rule package": (_package, lambda path: _checked(unpacked(path))),
     "rule file": (_rules, _checked),
-    "edits": (_text("town.edits", _EDITS), read_edits),
-    "OSM lots": (_text("lots.osm", _OSM), read_lots),
-    "KML lots": (_text("lots.kml", _KML), read_lots),
-    "FlatGeobuf lots": (_flatgeobuf, read_lots),
-    "control points": (_text("control.txt", _CONTROL), read_control),
-    "positions": (_text("geo.txt", _POSITIONS), read_positions),
+    "edits": (text_file("town.edits", _EDITS), read_edits),
+    "OSM lots": (text_file("lots.osm", _OSM), read_lots),
+    "KML lots": (text_file("lots.kml", _KML), read_lots),
+    "FlatGeobuf lots": (lots_file(".fgb", "FlatGeobuf"), read_lots),
+    "control points": (text_file("control.txt", _CONTROL), read_control),
+    "positions": (text_file("geo.txt", _POSITIONS), read_positions),
     "rig": (_rig, lambda path: read_rig_file(path, "", ["front", "left"])),
-    "Strecha": (_cameras(f"{sets.ring()[0].name}.camera", sets.write_strecha), _of_folder),
-    "Middlebury": (_cameras("ring_par.txt", sets.write_middlebury), _of_folder),
+    "Strecha": (cameras_file(f"{sets.ring()[0].name}.camera", sets.write_strecha), _of_folder),
+    "Middlebury": (cameras_file("ring_par.txt", sets.write_middlebury), _of_folder),
 }

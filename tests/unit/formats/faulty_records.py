@@ -108,7 +108,9 @@ def _read_bag(path: Path) -> object:
         return unpack_in_limits(path.parent, read_toml(toml), bag, Path(scratch))
 
 
-def _lots(suffix: str, driver: str) -> Callable[[Path], Path]:
+def lots_file(suffix: str, driver: str) -> Callable[[Path], Path]:
+    """Three lots with heights in a file of this kind."""
+
     def write(folder: Path) -> Path:
         import pyogrio
         import shapely
@@ -138,7 +140,11 @@ def _colmap(name: str) -> Callable[[Path], Path]:
     return write
 
 
-def _cameras(name: str, write: Callable[[Path, list[sets.Camera]], None]) -> Callable[[Path], Path]:
+def cameras_file(
+    name: str, write: Callable[[Path, list[sets.Camera]], None]
+) -> Callable[[Path], Path]:
+    """A ring of cameras with their pictures; name: of the file that faults are put into."""
+
     def written(folder: Path) -> Path:
         sets.write_pictures(folder)
         write(folder, sets.ring())
@@ -152,7 +158,9 @@ def _kitti(folder: Path) -> Path:
     return folder / "00" / "calib.txt"
 
 
-def _text(name: str, content: str) -> Callable[[Path], Path]:
+def text_file(name: str, content: str) -> Callable[[Path], Path]:
+    """A file of this text."""
+
     def write(folder: Path) -> Path:
         (folder / name).write_text(content, "utf-8")
         return folder / name
@@ -168,23 +176,23 @@ def _read_rig(path: Path) -> object:
     return find_calibration(path.parent, path, "image_2")
 
 
-_OPENCV = _cameras("calibration.yml", lambda at, of: sets.write_opencv(at, of, [0.0] * 5))
+_OPENCV = cameras_file("calibration.yml", lambda at, of: sets.write_opencv(at, of, [0.0] * 5))
 RECORDS: dict[str, Kind] = {
     "PDF": (_pdf, lambda path: [read_drawing(one) for one in find_drawings([path])]),
     "film": (_film, lambda path: look_through(video_of(path))),
     "ROS 1 bag": (_ros1, _read_bag),
     "MCAP": (_mcap, _read_bag),
-    "GeoPackage lots": (_lots(".gpkg", "GPKG"), read_lots),
-    "Shapefile lots": (_lots(".shp", "ESRI Shapefile"), read_lots),
+    "GeoPackage lots": (lots_file(".gpkg", "GPKG"), read_lots),
+    "Shapefile lots": (lots_file(".shp", "ESRI Shapefile"), read_lots),
     "COLMAP text": (_colmap("images.txt"), _read_colmap),
     "COLMAP binary": (_colmap("images.bin"), _read_colmap),
     "COLMAP points": (_colmap("points3D.bin"), _read_colmap),
     "OpenCV cameras": (_OPENCV, read_cameras),
-    "OpenMVG": (_cameras("sfm_data.json", sets.write_openmvg), read_cameras),
-    "OpenSfM": (_cameras("reconstruction.json", sets.write_opensfm), read_cameras),
+    "OpenMVG": (cameras_file("sfm_data.json", sets.write_openmvg), read_cameras),
+    "OpenSfM": (cameras_file("reconstruction.json", sets.write_opensfm), read_cameras),
     "KITTI calib": (_kitti, read_calibration),
     "KITTI sequence": (_kitti, lambda path: read_cameras(path.parent)),
     "KITTI rig": (_kitti, _read_rig),
-    "drive.toml": (_text("drive.toml", _DRIVE), read_toml),
-    "walk.toml": (_text("walk.toml", _WALK), _read_rig),
+    "drive.toml": (text_file("drive.toml", _DRIVE), read_toml),
+    "walk.toml": (text_file("walk.toml", _WALK), _read_rig),
 }

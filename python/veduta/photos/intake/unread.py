@@ -51,7 +51,6 @@ def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...
     try:
         entries = sorted(folder.iterdir())
         paths = [path for path in entries if path.is_file()]
-        inner = {path.name: _photos_in(path) for path in entries if path.is_dir()}
     except OSError as error:
         fault = f"cannot be read ({error.strerror})"
         raise InputError(folder, fault, "Check its permissions.") from error
@@ -75,11 +74,12 @@ def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...
         rest.remove(POSITIONS)
     if rest:
         notes.append(f"no photos, not used: {', '.join(rest)}")
-    named_folders = {path.name for path in entries if real_path(path) in named}
+    inner = [path for path in entries if path.is_dir() and not path.name.startswith(".")]
     notes += [
-        f"{name}/ has {count} photos, which are not used: give it, or those of all cameras by --rig"
-        for name, count in inner.items()
-        if count and name not in named_folders and not name.startswith(".")
+        f"{path.name}/ has {count} photos, which are not used: give it, or those of all cameras by"
+        " --rig"
+        for path in inner
+        if real_path(path) not in named and (count := _photos_in(path))
     ]
     return unread, tuple(notes)
 
