@@ -3,7 +3,7 @@ export { CloudArrivals } from "../three/clouds.ts";
 export { Frusta } from "../three/frusta.ts";
 export { Grower } from "../three/grower.ts";
 export { bringHouse } from "../three/houses.ts";
-export { loadPart } from "../three/load.ts";
+export { readPart } from "../three/load.ts";
 export { MorphShow } from "../three/morph-show.ts";
 export { PartSlot, stillOf } from "../three/part-slot.ts";
 export { bitmapOf, PhotoTextures } from "../three/photo-textures.ts";

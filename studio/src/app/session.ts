@@ -8,16 +8,17 @@ import { type SunPath, sunPathOf } from "../core/daylight.ts";
 import { Fault } from "../core/fault.ts";
 import type { House } from "../core/house.ts";
 import type { MorphState } from "../core/morph-walk.ts";
-import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
+import { fileAddress, type Part, placeAddress, readPlace, type Place } from "../core/place.ts";
 import type { FeatureRef, Layer, StudioState } from "../core/state.ts";
 import type { Sight } from "../core/sight.ts";
 import type { Store } from "../core/store.ts";
 import { Wishes } from "../core/wishes.ts";
 import { Arrivals } from "../three/arrivals.ts";
-import { fetchText } from "../three/fetch.ts";
+import { fetchBytes, fetchText } from "../three/fetch.ts";
 import type { LoadedHouse } from "../three/household.ts";
 import type { Town } from "../three/town.ts";
 import type { Viewer } from "../three/viewer.ts";
+import { HeadStart } from "./head-start.ts";
 
 export interface Session {
   readonly place: Place;
@@ -85,9 +86,18 @@ async function open(
   const drawing = import("./drawing.ts");
   onProgress(0, "place.json");
   const place = readPlace(await text, "place.json");
-  const { CloudArrivals, Frusta, Grower, bringHouse, loadPart, MorphShow, PartSlot, stillOf, SharedImages, bitmapOf, PhotoTextures, bringingBy, Recorded, Town, Viewer } =
-    await drawing;
   const { tileset } = place;
+  const wanted = tileset === null ? place.parts : [];
+  const shares = wanted.map(() => 0);
+  const fetchPart = async ({ model }: Part, index: number): Promise<ArrayBuffer> => {
+    return await fetchBytes(fileAddress(model, address), model, (got, total) => {
+      shares[index] = total === null ? 0.5 : got / total;
+      onProgress(0.97 * Math.max(0.02, mean(shares)), model);
+    });
+  };
+  const headStart = new HeadStart(wanted.length <= FEW_PARTS ? wanted : [], fetchPart);
+  const { CloudArrivals, Frusta, Grower, bringHouse, readPart, MorphShow, PartSlot, stillOf, SharedImages, bitmapOf, PhotoTextures, bringingBy, Recorded, Town, Viewer } =
+    await drawing;
   const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
   let viewer: Viewer | null = null;
   const town =
@@ -101,7 +111,7 @@ async function open(
       viewer = null; // for what comes after that
     },
   });
-  const parts = tileset === null ? place.parts.map((part) => new PartSlot(part)) : [];
+  const parts = wanted.map((part) => new PartSlot(part));
   const images = new SharedImages(budget.mostTexture_px);
   // What is asked for as one looks about: pictures, models of a walk, documents.
   const wishes = new Wishes(() => {
@@ -113,26 +123,27 @@ async function open(
   opened.push(wishes, grower);
   const houses: LoadedHouse[] = [];
   let tables: readonly FeatureTable[] = parts.map(({ table }) => table);
-  const shares = parts.map(() => 0);
   const sight = (): Sight => viewer?.sight ?? { eye: place.start.eye, direction: null, half_rad: 0 };
   const bring = async (index: number): Promise<void> => {
     const slot = parts[index];
     if (slot === undefined) return;
-    const loaded = await loadPart(slot.part, address, images, (got, total) => {
-      shares[index] = total === null ? 0.5 : got / total;
-      onProgress(0.97 * Math.max(0.02, mean(shares)), slot.part.model);
-    });
+    const loaded = await readPart(slot.part, await headStart.bytesOf(slot.part, index), images);
     loaded.group.updateMatrixWorld(true);
     const meets = !slot.part.isBackdrop && !alive.has(index);
-    slot.take(loaded, meets ? await grower.solidOf(stillOf(loaded), index) : null);
-    tables = [...tables]; // the panels count anew
-    viewer?.take(index);
-    await bringHouse(slot, address, houses.length, wishes, (house) => {
-      houses.push(house);
-      viewer?.household.take(house);
+    const taken = (meets ? grower.solidOf(stillOf(loaded), index) : Promise.resolve(null)).then((solid) => {
+      slot.take(loaded, solid);
+      tables = [...tables]; // the panels count anew
+      viewer?.take(index);
     });
+    // Its document comes while the worker builds what one bumps into.
+    const house = bringHouse(loaded, address, houses.length, wishes, taken, (one) => {
+      houses.push({ house: one, part: slot });
+      viewer?.household.take({ house: one, part: slot });
+    });
+    await Promise.all([taken, house]);
+    viewer?.warm(slot.group); // not before: with its rooms a house is drawn by other programs
   };
-  const arrivals = new Arrivals(tileset === null ? place.parts : [], sight, bring, onShown);
+  const arrivals = new Arrivals(wanted, sight, bring, onShown);
   opened.push(arrivals);
   arrivals.start();
   await town?.open((share) => onProgress(share, "tileset.json"));
@@ -163,7 +174,10 @@ async function open(
   if (morphs !== null) store.update({ morph: strollFrom(0) });
   const recorded = new Recorded(
     parts,
-    async (part) => (await loadPart(part, address, images, () => undefined)).group.children,
+    async (part) => {
+      const bytes = await fetchBytes(fileAddress(part.model, address), part.model, () => undefined);
+      return (await readPart(part, bytes, images)).group.children;
+    },
     () => {
       viewer?.invalidate();
       onShown();

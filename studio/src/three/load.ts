@@ -4,8 +4,7 @@ import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js"
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
 import { Fault } from "../core/fault.ts";
-import { fileAddress, type Part } from "../core/place.ts";
-import { fetchBytes, type OnBytes } from "./fetch.ts";
+import type { Part } from "../core/place.ts";
 import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
 import { instancedFeatures, type InstancedFeatures } from "./instanced-mesh.ts";
 import { loadMasks, type Masks } from "./invented-mask.ts";
@@ -31,13 +30,8 @@ const GLB_MAGIC = 0x46546c67;
 /** Texture size at a grazing angle costs little and keeps a street's walls sharp. */
 const ANISOTROPY = 8;
 
-/** Fetches and reads a part; `onBytes` hears how much of it has come. */
-export async function loadPart(part: Part, manifest: URL, images: SharedImages, onBytes: OnBytes): Promise<LoadedPart> {
-  const bytes = await fetchBytes(fileAddress(part.model, manifest), part.model, onBytes);
-  return await readPart(part, bytes, images);
-}
-
-async function readPart(part: Part, bytes: ArrayBuffer, images: SharedImages): Promise<LoadedPart> {
+/** The part that a GLB file holds. Fault where it is broken. */
+export async function readPart(part: Part, bytes: ArrayBuffer, images: SharedImages): Promise<LoadedPart> {
   checkContainer(bytes, part.model);
   const gltf = await parse(bytes, part.model, images);
   const { scene } = gltf;

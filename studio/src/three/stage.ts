@@ -147,10 +147,10 @@ export class Stage {
   }
 
   /** The model of a part has come; the result is what is drawn of it. */
-  take(index: number, state: StudioState): Group | null {
+  take(index: number, state: StudioState): void {
     const { parts } = this.#content;
     const slot = parts[index];
-    if (slot === undefined) return null;
+    if (slot === undefined) return;
     this.appearance.take(index);
     layIfGround(slot);
     if (this.solid instanceof PlaceSolid) this.solid.take(index);
@@ -159,7 +159,6 @@ export class Stage {
     this.light(state.hour);
     this.appearance.tint(state);
     this.showLayers(state);
-    return slot.group;
   }
 
   /** Shows what the person wants to see, and hides the rest. */

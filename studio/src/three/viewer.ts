@@ -154,9 +154,8 @@ export class Viewer {
 
   /** The model of a part has come. */
   take(part: number): void {
-    const group = this.#stage.take(part, this.#store.value);
+    this.#stage.take(part, this.#store.value);
     this.#walk.body = this.#stage.body;
-    if (group !== null) this.warm(group);
     this.invalidate();
   }
 
