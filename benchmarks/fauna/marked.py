@@ -21,7 +21,7 @@ from veduta.fauna.document.plan import load_plan
 from veduta.fauna.motion.figure import figure_of
 from veduta.fauna.read.annotated import read_annotated
 from veduta.fauna.read.drawn import drawn_figure
-from veduta.fauna.read.footage import read_footage, read_masks
+from veduta.fauna.read.footage import Footage, read_footage, read_masks
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
 from veduta.fauna.read.overlap import overlap
 from veduta.fauna.read.silhouettes import SilhouetteLooks, Silhouettes, silhouettes_of
@@ -59,7 +59,7 @@ def main() -> None:
             pins = {joint: at.copy() for joint, at in marked.items()}
             for at in pins.values():
                 at[held] = np.nan
-        rows += kept.rows(name, partial(measured, name, found, pins, marked, held))
+        rows += kept.rows(name, partial(measured, name, footage, found, pins, marked, held))
     notes = [
         f"Places within {NEAR:.0%} of the length from rump to nose; judged in labelled frames that"
         " the fit was not given. Nothing was tuned with the dog.",
@@ -68,13 +68,14 @@ def main() -> None:
 
 
 def measured(
-    name: str, found: Silhouettes, pins: dict[str, Floats], marked: dict[str, Floats],
-    held: NDArray[np.int64],
+    name: str, footage: Footage, found: Silhouettes, pins: dict[str, Floats],
+    marked: dict[str, Floats], held: NDArray[np.int64],
 ) -> list[Row]:  # fmt: skip
     """The rows of one fit."""
     own = {joint: at[found.rows] for joint, at in pins.items()}
     plan = load_plan("quadruped")
-    seen = fit_limbed(found.masks, found.rows, plan, LimbedLooks(), lambda: None, own)
+    pictures = footage.frames[found.rows]
+    seen = fit_limbed(found.masks, found.rows, plan, LimbedLooks(), lambda: None, own, pictures)
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
     deep = seen.fitted.deep * seen.fitted.px_per_length
     shape = (found.masks.shape[1], found.masks.shape[2])

@@ -29,6 +29,7 @@ from veduta.fauna.read.silhouettes import SilhouetteLooks, silhouettes_of
 Floats = NDArray[np.float64]
 Masks = NDArray[np.bool_]
 Row = dict[str, Value]
+Filmed = tuple[Masks, NDArray[np.uint8]]
 DATA = Path(os.environ.get("VEDUTA_DATA", Path(__file__).parents[3] / "shared" / "data"))
 MOUSE_STEP, MOUSE_FRAMES = 4, 57
 """Every fourth frame of 250 a second, about two strides; every other of them is fitted."""
@@ -46,7 +47,7 @@ def main() -> None:
     parser.add_argument("--no-keep", action="store_true")
     given = parser.parse_args()
     kept = KeptClips(given.kept)
-    makers: dict[str, Callable[[], Masks]] = {"mouse": mouse_masks, "goat": goat_masks}
+    makers: dict[str, Callable[[], Filmed]] = {"mouse": mouse_masks, "goat": goat_masks}
     rows = [
         row
         for name, make in makers.items()
@@ -63,10 +64,13 @@ def main() -> None:
     keep_or_print("fauna-unseen", rows, notes, not given.no_keep)
 
 
-def _measured(name: str, make: Callable[[], Masks]) -> list[Row]:
-    masks = make()
+def _measured(name: str, make: Callable[[], Filmed]) -> list[Row]:
+    masks, pictures = make()
     even = np.arange(0, len(masks), 2)
-    seen = fit_limbed(masks[even], even, load_plan("quadruped"), LimbedLooks(), lambda: None)
+    seen = fit_limbed(
+        masks[even], even, load_plan("quadruped"), LimbedLooks(), lambda: None,
+        pictures=pictures[even],
+    )  # fmt: skip
     scores = unseen_scores(seen, masks)
     return [{
         "what": f"{name}: silhouettes that the fit did not see, IoU of the median frame",
@@ -101,15 +105,16 @@ def _scores(seen: LimbedSeen, joints: Floats, deep: Floats, masks: Masks) -> lis
     ]
 
 
-def goat_masks() -> Masks:
-    """(t, h, w) the goat's silhouettes, as the data set has them."""
+def goat_masks() -> Filmed:
+    """(t, h, w) the goat's silhouettes, as the data set has them, and its pictures."""
     folder = DATA / "animals" / "goat"
     footage = read_footage(folder / "images", None)
-    return silhouettes_of(read_masks(folder / "masks", footage), SilhouetteLooks(), "goat").masks
+    found = silhouettes_of(read_masks(folder / "masks", footage), SilhouetteLooks(), "goat")
+    return found.masks, footage.frames[found.rows]
 
 
-def mouse_masks() -> Masks:
-    """(t, h, w) the mouse from the side, over its wheel."""
+def mouse_masks() -> Filmed:
+    """(t, h, w) the mouse from the side, over its wheel, and its pictures."""
     footage = read_footage(DATA / "animals" / "mouse" / "test_vid.mp4", None)
     grey = footage.frames[:, :SIDE_PX].max(axis=3)
     still = np.median(grey[:: max(1, len(grey) // 60)], axis=0)
@@ -124,7 +129,7 @@ def mouse_masks() -> Masks:
         count, labels, stats, _ = cv2.connectedComponentsWithStats(light, connectivity=8)
         if count > 1:
             raw[row] = labels == 1 + int(stats[1:, cv2.CC_STAT_AREA].argmax())
-    return raw
+    return raw, footage.frames[: MOUSE_FRAMES * step : step, :SIDE_PX]
 
 
 def _wheel(still: Floats) -> Floats:

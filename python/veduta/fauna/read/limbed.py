@@ -16,6 +16,7 @@ from veduta.fauna.read.nearer import Nearer
 from veduta.fauna.read.sides import sides_told
 from veduta.fauna.read.silhouettes import Masks
 from veduta.fauna.read.starts import Start, StartLooks, best_start, legs_together
+from veduta.fauna.read.travel import travelled
 from veduta.fauna.read.windows import Windows, middles_of, repeat_of, windows_of
 
 
@@ -35,7 +36,7 @@ class LimbedLooks:
     gain: float = 0.004
     """An optional part is kept where the loss falls by this share."""
     travels: float = 0.25
-    """An animal that moves by so many of its silhouettes' widths looks where it goes."""
+    """An animal that moves over the ground by so many of its silhouettes' widths looks there."""
     fit: FitLooks = field(default_factory=FitLooks)
     start: StartLooks = field(default_factory=StartLooks)
 
@@ -65,7 +66,7 @@ def fit_limbed(
     """The figure of a plan in silhouettes (t, h, w) of the numbered frames.
 
     pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere. pictures: (t, h, w, 3) of
-    the frames: they tell near legs from far ones.
+    the frames: they tell near legs from far ones, and how the ground goes by.
     """
     optional = {part.name for part in plan.parts if part.optional}
     number = frames.astype(np.float64)
@@ -80,9 +81,8 @@ def fit_limbed(
         cycle, score = (1.0 if top else 2.0) * repeats[0] * step, repeats[1]
     basis = _basis(number, cycle, looks.fit, looks.start_harmonics)
     figure = figure_of(plan, optional)
-    start = best_start(
-        figure, coarse, number, basis, looks.fit, looks.start, _ways(masks, middle), heard
-    )
+    ways = _ways(travelled(masks, middle, pictures))
+    start = best_start(figure, coarse, number, basis, looks.fit, looks.start, ways, heard)
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
     fine = replace(windows_of(masks, looks.fine_cells, middle), pins=pins or {})
@@ -110,13 +110,9 @@ def _basis(
     return cycle_basis(frames, cycle, looks, harmonics)
 
 
-def _ways(masks: Masks, middle: Floats) -> tuple[float, ...]:
+def _ways(gone: float) -> tuple[float, ...]:
     """Which ways it may look: where it goes, if it does."""
-    width = float(np.median(masks.any(axis=1).sum(axis=1)))
-    gone = float(middle[-1, 0] - middle[0, 0]) / max(width, 1.0)
-    if abs(gone) > LimbedLooks().travels:
-        return (float(np.sign(gone)),)
-    return (1.0, -1.0)
+    return (float(np.sign(gone)),) if abs(gone) > LimbedLooks().travels else (1.0, -1.0)
 
 
 def _with_cycle(
