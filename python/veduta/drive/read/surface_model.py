@@ -171,13 +171,18 @@ def _of_heights(
     filled = np.ascontiguousarray(heights[tuple(nearest)])
     ground = _ground(filled, cell_m, chosen)
     edge, times = _edges(filled, ground, cell_m, scanner_m, chosen)
-    leaves = _trees(filled, cell_m, chosen.leaf_m, chosen.leaf_over_m)
-    edge &= ~_finer(_trees(filled, cell_m, chosen.rough_m, chosen.rough_over_m), times)
+    leaves = _trees(filled, cell_m, chosen.leaf_m, chosen.leaf_over_m, chosen.step_m)
+    trees = _trees(filled, cell_m, chosen.rough_m, chosen.rough_over_m, chosen.step_m)
+    edge &= ~_finer(trees, times)
     distance = _to_edges(edge, cell_m / times, chosen)
     near = float((distance < 1.0).mean())
     distance += cell_m / times / 2.0  # cells are told from their middles, edges lie between them
-    distance[_finer((filled - ground > scanner_m) & ~leaves, times)] *= -1.0
+    high = filled - ground > scanner_m
+    distance[_finer(high, times)] *= -1.0
     distance += chosen.eaves_m + chosen.inside * cell_m
+    # Beams may go through leaves; a wall below rough eaves is as far behind them as any other.
+    leafy = _finer(high & leaves, times)
+    distance[leafy] = np.abs(distance[leafy])
     return SurfaceModel(distance, low, cell_m / times, ground, times, crs, near)
 
 
@@ -226,10 +231,12 @@ def _edges(
 
 
 def _trees(
-    heights: NDArray[np.float32], cell_m: float, rough_m: float, over_m: float
+    heights: NDArray[np.float32], cell_m: float, rough_m: float, over_m: float, most_m: float
 ) -> NDArray[np.bool_]:
-    """Cells where the surface is rough; a median keeps the steps of walls."""
-    off = np.abs(heights - cv2.medianBlur(heights, 3))
+    """Cells where the surface is rough; a median keeps the steps of walls that run along cells. Of
+    others each corner is off by the wall's height: no cell counts more than `most_m`.
+    """
+    off = np.minimum(np.abs(heights - cv2.medianBlur(heights, 3)), np.float32(most_m))
     side = max(round(over_m / cell_m) | 1, 3)
     return np.asarray(cv2.blur(off, (side, side)) > rough_m, dtype=bool)
 
