@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import os
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +18,17 @@ from made_objects import TABLE_M, ObjectScene, cameras_around
 from numpy.typing import NDArray
 from record import Row, keep_or_print
 from scipy.spatial import cKDTree
-from synthetic_truth import FOCAL, HEIGHT, WIDTH, Floats, finer, makers, scores, write_set
+from synthetic_truth import (
+    FOCAL,
+    HEIGHT,
+    WIDTH,
+    Floats,
+    costed,
+    finer,
+    makers,
+    scores,
+    write_set,
+)  # fmt: skip
 
 from veduta.synthetic.camera import Camera
 
@@ -66,12 +75,10 @@ def measured(seed: int, peer: Path | None) -> list[Row]:
         write_set(folder, cameras, photos)
         ways = makers(folder, cameras, photos, peer, REACH_M, alpha=-1.0)
         for name, make in ways.items():
-            began, used = time.perf_counter(), time.process_time()
-            points = make()
-            times = time.perf_counter() - began, time.process_time() - used
-            row = scores(points, tree, spots, low, high)
-            told = {"processor s": round(times[1], 1), "seconds": round(times[0], 1)}
-            rows.append({"seed": seed, "by": name, **row, **told})
+            points, cost = costed(make)
+            rows.append(
+                {"seed": seed, "by": name, **scores(points, tree, spots, low, high), **cost}
+            )
     return rows
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import resource
 import subprocess
 import tempfile
 import time
@@ -22,6 +23,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from peak_memory import grown
 from PIL import Image
 from record import Row, keep_or_print
 from scipy.spatial import cKDTree
@@ -211,6 +213,27 @@ def makers(
     return found
 
 
+def costed(make: Callable[[], Floats]) -> tuple[Floats, Row]:
+    """The points of a way, and what they cost: time, and memory beyond what was taken before."""
+    began, used = time.perf_counter(), _used_s()
+    with grown() as peak:
+        points = make()
+    cost: Row = {
+        "processor s": round(_used_s() - used, 1),
+        "seconds": round(time.perf_counter() - began, 1),
+        "peak MB": round(peak.pss / 1e6),
+    }
+    return points, cost
+
+
+def _used_s() -> float:
+    """Of the processor, by this process and those that it started and that have ended."""
+    return sum(
+        used.ru_utime + used.ru_stime
+        for used in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    )
+
+
 def main() -> None:
     """Render, reconstruct, compare, keep."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -228,11 +251,9 @@ def main() -> None:
             folder = Path(scratch) / "set"
             write_set(folder, cameras, photos)
             for name, make in makers(folder, cameras, photos, given.peer).items():
-                began = time.perf_counter()
-                points = make()
-                seconds = time.perf_counter() - began
+                points, cost = costed(make)
                 row = scores(points, tree, spots, low, high)
-                rows.append({"facade": seed, "by": name, **row, "seconds": round(seconds, 1)})
+                rows.append({"facade": seed, "by": name, **row, **cost})
     notes = [
         f"Load at the end: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores, as the seconds say.",
         f"{PHOTOS} photos of {WIDTH} x {HEIGHT}, {AWAY_M} m away, {APART_M} m apart, with noise.",

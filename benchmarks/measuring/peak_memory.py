@@ -6,9 +6,12 @@ Memory is summed over them 20 times a second, as the kernel accounts it: proport
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,11 +29,30 @@ class Peak:
 
 def watched(process: subprocess.Popen[bytes]) -> Peak:
     """The peak memory of a process and its descendants until it ends."""
+    with _sampled(process.pid) as peak:
+        process.wait()
+    return peak
+
+
+@contextmanager
+def grown() -> Iterator[Peak]:
+    """By how much this process and what it starts grow meanwhile; whole when it is left."""
+    before = [memory(pid) for pid in descendants(os.getpid())]
+    peak = Peak()
+    with _sampled(os.getpid()) as whole:
+        yield peak
+    peak.pss = max(0, whole.pss - sum(pss for pss, _ in before))
+    peak.rss = max(0, whole.rss - sum(rss for _, rss in before))
+    peak.processes = whole.processes
+
+
+@contextmanager
+def _sampled(pid: int) -> Iterator[Peak]:
     peak, over = Peak(), threading.Event()
 
     def sample() -> None:
         while not over.is_set():
-            family = [memory(pid) for pid in descendants(process.pid)]
+            family = [memory(each) for each in descendants(pid)]
             peak.pss = max(peak.pss, sum(pss for pss, _ in family))
             peak.rss = max(peak.rss, sum(rss for _, rss in family))
             peak.processes = max(peak.processes, len(family))
@@ -39,11 +61,10 @@ def watched(process: subprocess.Popen[bytes]) -> Peak:
     sampler = threading.Thread(target=sample)
     sampler.start()
     try:
-        process.wait()
+        yield peak
     finally:
         over.set()
         sampler.join()
-    return peak
 
 
 def descendants(pid: int) -> list[int]:
