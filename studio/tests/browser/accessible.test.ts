@@ -5,7 +5,8 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { addAnimal } from "../fixture/animal.mjs";
 import { makePlace } from "../fixture/make-place.mjs";
-import { addPhotos, editPlace } from "../fixture/photos.mjs";
+import { addPhotos, addPoints, editPlace } from "../fixture/photos.mjs";
+import { makeRaster } from "../fixture/raster.mjs";
 import { makeRooms } from "../fixture/rooms.mjs";
 import { addWalk } from "../fixture/walk.mjs";
 import { findings, foundAtOnce } from "./axe.ts";
@@ -26,6 +27,12 @@ function keepRecord(folder: string): void {
   });
 }
 
+/** Of photos alone: points and cameras, and nothing that was made of them. */
+function keepPointsAlone(folder: string): void {
+  addPoints(folder, [[0, 0, 0], [4, 0, 0], [4, 0, 3], [0, 0, 3]]);
+  editPlace(folder, (place) => Object.assign(place, { parts: [], scale: "unknown" }));
+}
+
 describe.skipIf(MISSING !== null)("axe", () => {
   let site: Site;
   let browser: Browser;
@@ -35,7 +42,8 @@ describe.skipIf(MISSING !== null)("axe", () => {
     [site, browser] = [await makeSite(2), await launch()];
     addPhotos(site.folder, [{ eye: [5, -14, 1.7], target: [5, 0, 5] }]);
     makeRooms(join(site.folder, "rooms"));
-    for (const [name, add] of [["animal", addAnimal], ["stroll", addWalk], ["tour", addTour], ["recorded", keepRecord]] as const) {
+    makeRaster(join(site.folder, "raster"));
+    for (const [name, add] of [["animal", addAnimal], ["stroll", addWalk], ["tour", addTour], ["recorded", keepRecord], ["points", keepPointsAlone]] as const) {
       const folder = join(site.folder, name);
       mkdirSync(folder);
       makePlace(folder);
@@ -144,6 +152,14 @@ describe.skipIf(MISSING !== null)("axe", () => {
     for (const path of ["animal", "tour", "stroll"]) {
       const { page: other } = await open(browser, `${site.origin}/?place=${path}/`);
       if (path === "tour") await other.keyboard.press("g");
+      expect(await findings(other), path).toEqual([]);
+      await other.context().close();
+    }
+  });
+
+  it("finds nothing in a place of points alone, nor on a raster", async () => {
+    for (const path of ["points", "raster"]) {
+      const { page: other } = await open(browser, `${site.origin}/?place=${path}/`);
       expect(await findings(other), path).toEqual([]);
       await other.context().close();
     }
