@@ -17,6 +17,7 @@ from pathlib import Path
 
 from veduta import _core
 from veduta.grammar.encodings import decoded
+from veduta.grammar.own_files import with_own_files
 from veduta.grammar.project import RULES, SearchPath, search_path, with_folders
 from veduta.grammar.rule_packages import SUFFIX as PACKAGE
 from veduta.grammar.rule_packages import unpacked
@@ -123,7 +124,8 @@ def read_rules(
             if name is None or name in files or name in open_names or full:
                 continue
             open_names.append(name)
-    return RuleFiles(path, tuple(files.items()), with_folders(search, files), tuple(notes))
+    search = with_folders(search, files)
+    return RuleFiles(path, with_own_files(Path(main), files, search), search, tuple(notes))
 
 
 def with_start(rules: RuleFiles, start: str | None) -> tuple[RuleFiles, str | None]:
