@@ -193,7 +193,9 @@ def test_faulty_models_are_refused(tmp_path: Path) -> None:
         (0.5, 0.49, 0.6, "fits it as well 5 m away"),
         (-0.1, 0.2, 0.6, "fits it as well 5 m away"),
         (0.5, 0.2, 0.35, "35 % of the points near its edges lie on them"),
-        (0.5, 0.47, 0.41, None),
+        (0.5, 0.47, 0.41, "nearly as well 5 m away, and 41 % .* less than 68 %"),
+        (0.5, 0.47, 0.72, None),
+        (0.5, 0.35, 0.45, None),
     ],
 )
 def test_a_place_that_is_no_better_than_others_is_refused(

@@ -227,3 +227,4 @@ def test_who_is_sure_is_not_refused_for_what_is_alike(
     with pytest.raises(NotFoundError):
         read_own(folder)
     assert (rules[0].least_margin > 0.0) == (rules[0].least_sharp > 0.0) == (not sure)
+    assert (rules[0].sharp_alike > 0.0) == (not sure)

@@ -97,7 +97,7 @@ def find_path(
     start, reach = _start(folder, source, log, log.surface, model, crs, float(times[0]))
     rule = LocaliseParameters()
     if log.surface.sure:
-        rule = replace(rule, least_margin=-np.inf, least_sharp=0.0)
+        rule = replace(rule, least_margin=-np.inf, least_sharp=0.0, sharp_alike=0.0)
     placed = localise(chain, model, start, reach, seed, loops, parameters=rule)
     poses = chain.all_poses(placed.poses)
     ground, slope = _ground_along(model, poses)
