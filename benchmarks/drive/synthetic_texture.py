@@ -14,8 +14,8 @@ from __future__ import annotations
 import json
 import sys
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -55,6 +55,12 @@ WINDOW_M, HIDDEN, FOUND = 1.2, 0.6, 0.5
 ON_FRONT_M, DIFFERS = 0.35, 60.0
 FIRST_UNSEEN = 500
 AROUND, MOST_SEEN = 0.35, 0.97
+HOLES_NOTE = (
+    "Holes as they come: wider and higher than a window. Cut: about every third window that is"
+    f" seen, wider by {AROUND} of its width on each side. PSNR and SSIM are means over streets,"
+    " weighed by texels. Windows: a box that agrees by an intersection over union of 0.5; the"
+    " control looks for them in the true texture."
+)
 Pixels = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
 Row = dict[str, str | int | float | bool | None]
@@ -150,22 +156,38 @@ def wide_holes(holes: Mask, places: NDArray[np.float64]) -> Mask:
     return found
 
 
-def windows(
-    pixels: Pixels, fronts: Fronts, places: NDArray[np.float64], chosen: Mask
-) -> tuple[int, int]:
-    """How many windows lie mostly in the chosen part, and how many of them stand there in it."""
-    inside, found = 0, 0
+@dataclass(frozen=True, eq=False)
+class Pane:
+    """A window in the atlas. own: (h, w) its texels. about: (h, w) it and what is beside it. wall:
+    (3,) the colour of the wall around.
+    """
+
+    own: Mask
+    about: Mask
+    wall: NDArray[np.float32]
+
+
+def panes_of(fronts: Fronts, places: NDArray[np.float64]) -> Iterator[Pane]:
+    """The windows of boxes."""
     y, z = places[..., 1], places[..., 2]
     for house in fronts.houses:
-        smooth = cv2.blur(pixels, (5, 5)).astype(np.float32)
-        unlike = np.abs(smooth - house.wall).max(axis=2) > DIFFERS
         for y0, y1, z0, z1 in house.panes.tolist():
             own = (y > y0) & (y < y1) & (z > z0) & (z < z1)
-            if own.sum() < 200 or (own & chosen).sum() < HIDDEN * own.sum():
-                continue
-            inside += 1
             about = (y > y0 - 0.6) & (y < y1 + 0.6) & (z > z0 - 0.02) & (z < z1 + 0.02)
-            found += _agrees(about & unlike, own)
+            yield Pane(own, about, house.wall)
+
+
+def windows(pixels: Pixels, panes: Iterable[Pane], chosen: Mask) -> tuple[int, int]:
+    """How many windows lie mostly in the chosen part, and how many of them stand there in it."""
+    inside, found = 0, 0
+    smooth = cv2.blur(pixels, (5, 5)).astype(np.float32)
+    for pane in panes:
+        own = pane.own
+        if own.sum() < 200 or (own & chosen).sum() < HIDDEN * own.sum():
+            continue
+        inside += 1
+        unlike = np.abs(smooth - pane.wall).max(axis=2) > DIFFERS
+        found += _agrees(pane.about & unlike, own)
     return inside, found
 
 
@@ -201,46 +223,56 @@ def cut_windows(atlas: Atlas, fronts: Fronts, places: NDArray[np.float64]) -> Ma
     return holes
 
 
-def textures(textured: Textured, fronts: Fronts, texel_m: float, pictures: Path) -> list[Row]:
-    """A row of each method, in holes as they come and in holes that are cut about windows."""
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """Of an atlas. pixels: (h, w, 3). there: (h, w) where a front stands. panes: its windows.
+    cut: (h, w) holes to be cut about windows.
+    """
+
+    pixels: Pixels
+    there: Mask
+    panes: tuple[Pane, ...]
+    cut: Mask
+
+
+def truth_of(textured: Textured, fronts: Fronts, texel_m: float) -> Truth:
+    """What is painted on the boxes."""
     places = places_of(textured)
-    truth, there = true_texture(fronts, places, texel_m)
-    atlas = textured.atlas
-    own = wide_holes(atlas.surface & ~atlas.seen, places) & there
+    pixels, there = true_texture(fronts, places, texel_m)
+    panes = tuple(panes_of(fronts, places))
+    return Truth(pixels, there, panes, cut_windows(textured.atlas, fronts, places))
+
+
+def textures(textured: Textured, known: Truth, texel_m: float, pictures: Path) -> list[Row]:
+    """A row of each method, in holes as they come and in holes that are cut about windows."""
+    places, atlas = places_of(textured), textured.atlas
+    own = wide_holes(atlas.surface & ~atlas.seen, places) & known.there
     np.savez_compressed(
         pictures.with_suffix(".npz"), allow_pickle=False, pixels=atlas.pixels, seen=atlas.seen,
-        surface=atlas.surface, truth=truth, there=there, places=places.astype(np.float32), own=own,
-        row=atlas.row, column=atlas.column,
+        surface=atlas.surface, truth=known.pixels, there=known.there, own=own,
+        places=places.astype(np.float32), row=atlas.row, column=atlas.column,
     )  # fmt: skip
     ground = atlas.spread(~textured.background.wall)
-    known = (truth, fronts, places, ground)
-    rows = _compared("as they come", atlas, own, known, texel_m, pictures)
-    holes = cut_windows(atlas, fronts, places)
-    seen = atlas.seen & ~holes
+    rows = _compared("as they come", atlas, own, known, ground, texel_m, pictures)
+    seen = atlas.seen & ~known.cut
     grey = np.where(seen[..., None], atlas.pixels, np.uint8(128))
     spoilt = replace(atlas, pixels=grey, seen=seen)
     path = pictures.with_name(f"cut-{pictures.name}")
-    rows += _compared("cut", spoilt, holes & there, known, texel_m, path)
-    shown = atlas.seen & there
-    rows.append(_row("what images show", "-", atlas.pixels, truth, shown))
+    rows += _compared("cut", spoilt, known.cut & known.there, known, ground, texel_m, path)
+    rows.append(_row("what images show", "-", atlas.pixels, known.pixels, atlas.seen & known.there))
     return rows
 
 
 def _compared(
-    name: str,
-    atlas: Atlas,
-    chosen: Mask,
-    known: tuple[Pixels, Fronts, NDArray[np.float64], Mask],
-    texel_m: float,
+    name: str, atlas: Atlas, chosen: Mask, known: Truth, ground: Mask, texel_m: float,
     pictures: Path,
-) -> list[Row]:
-    truth, fronts, places, ground = known
+) -> list[Row]:  # fmt: skip
     unknown = (~atlas.seen).astype(np.uint8)
     methods: dict[str, Callable[[], NDArray[Any]]] = {
         "veduta": lambda: fill_texture(atlas, texel_m, ground=ground)[0],
         "OpenCV Telea": lambda: cv2.inpaint(atlas.pixels, unknown, 5, cv2.INPAINT_TELEA),
         "OpenCV Navier-Stokes": lambda: cv2.inpaint(atlas.pixels, unknown, 5, cv2.INPAINT_NS),
-        "truth (control)": lambda: truth,
+        "truth (control)": lambda: known.pixels,
     }
     rows: list[Row] = []
     drawn = [np.where(atlas.seen[..., None], atlas.pixels, np.array([220, 40, 40], np.uint8))]
@@ -248,8 +280,8 @@ def _compared(
         begin = time.process_time()
         pixels = np.asarray(fill(), dtype=np.uint8)
         seconds = time.process_time() - begin
-        inside, found = windows(pixels, fronts, places, chosen)
-        row = _row(name, method, pixels, truth, chosen)
+        inside, found = windows(pixels, known.panes, chosen)
+        row = _row(name, method, pixels, known.pixels, chosen)
         rows.append(row | {"windows hidden": inside, "found again": found, "seconds": seconds})
         drawn.append(pixels)
     drawn.append(np.where(chosen[..., None], np.uint8(255), np.uint8(0)).repeat(3, axis=2))
@@ -291,12 +323,43 @@ def one_seed(folder: Path, seed: int) -> dict[str, Any]:
     if not (folder / "truth.npz").is_file():
         shoot(folder, seed)
     fronts = Fronts(build_street(STREET, seed), seed)
+    return measured(folder, lambda one: truth_of(one, fronts, DriveOptions().texture.texel_m))
+
+
+def measured(folder: Path, truth: Callable[[Textured], Truth]) -> dict[str, Any]:
+    """All figures of the drive in a folder, which has the truth of its images, too."""
     found: dict[str, Any] = {"rows": [], "masks": {}}
     for number, (_, textured, seen) in enumerate(made(folder)):
         picture = folder / f"textures-{number}.png"
-        found["rows"] += textures(textured, fronts, DriveOptions().texture.texel_m, picture)
+        texel_m = DriveOptions().texture.texel_m
+        found["rows"] += textures(textured, truth(textured), texel_m, picture)
         found["masks"] = masks(folder, seen)
     return found
+
+
+def kept_rows(
+    folder: Path, seeds: range, one: Callable[[Path, int], dict[str, Any]]
+) -> list[dict[str, Any]]:
+    """What `one` makes of each seed, kept in the folder."""
+    told: list[dict[str, Any]] = []
+    for seed in seeds:
+        kept = folder / f"{seed}.json"
+        if not kept.is_file():
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            kept.write_text(json.dumps(one(folder / str(seed), seed)))
+        told.append(json.loads(kept.read_text()))
+    return told
+
+
+def masks_note(told: list[dict[str, Any]]) -> str:
+    """How much of what hides the fronts is found in the images."""
+    counts = {name: sum(one["masks"][name] for one in told) for name in told[0]["masks"]}
+    found = counts["before found"] / counts["before"]
+    wrong = counts["behind hidden"] / counts["behind"]
+    return (
+        f"In the images {100 * found:.1f} % of what stands before the fronts is found, and"
+        f" {100 * wrong:.1f} % of the rest of the fronts is held for it, pixel by pixel."
+    )
 
 
 def main() -> None:
@@ -304,32 +367,19 @@ def main() -> None:
     folder = Path(sys.argv[1])
     seeds = int(sys.argv[2]) if len(sys.argv) > 2 else 6
     first = int(sys.argv[3]) if len(sys.argv) > 3 else FIRST_UNSEEN
-    told: list[dict[str, Any]] = []
-    for seed in range(first, first + seeds):
-        kept = folder / f"{seed}.json"
-        if not kept.is_file():
-            kept.parent.mkdir(parents=True, exist_ok=True)
-            kept.write_text(json.dumps(one_seed(folder / str(seed), seed)))
-        told.append(json.loads(kept.read_text()))
-    rows = _summed([row for one in told for row in one["rows"]])
-    counts = {name: sum(one["masks"][name] for one in told) for name in told[0]["masks"]}
-    found = counts["before found"] / counts["before"]
-    wrong = counts["behind hidden"] / counts["behind"]
+    told = kept_rows(folder, range(first, first + seeds), one_seed)
+    rows = summed([row for one in told for row in one["rows"]])
     notes = [
         f"{seeds} streets of {STREET.length_m:.0f} m, seeds from {first} on, trees right before"
         f" walls; images of 1024 x 768 px every {CAMERA.spacing_m} m, times off by"
         f" {1000 * CAMERA.jitter_s:.0f} ms (standard deviation).",
-        "Holes as they come: wider and higher than a window. Cut: about every third window that is"
-        f" seen, wider by {AROUND} of its width on each side. PSNR and SSIM are means over streets,"
-        " weighed by texels. Windows: a box that agrees by an intersection over union of 0.5; the"
-        " control looks for them in the true texture.",
-        f"In the images {100 * found:.1f} % of what stands before the fronts is found, and"
-        f" {100 * wrong:.1f} % of the rest of the fronts is held for it, pixel by pixel.",
+        HOLES_NOTE,
+        masks_note(told),
     ]
     keep_or_print("drive-synthetic-texture", rows, notes, first >= FIRST_UNSEEN)
 
 
-def _summed(rows: list[Row]) -> list[Row]:
+def summed(rows: list[Row]) -> list[Row]:
     """One row of each kind of holes and method over all streets."""
     result: list[Row] = []
     for kind in dict.fromkeys((row["holes"], row["method"]) for row in rows):

@@ -7,6 +7,7 @@ import pytest
 from derived_houses import derived_house
 from numpy.typing import NDArray
 
+from veduta.place.semantics import SemanticClass
 from veduta.synthetic.drives import (
     PAPER,
     Kind,
@@ -202,3 +203,11 @@ def test_a_surface_model_has_the_roofs_and_the_road(street: MadeStreet) -> None:
     assert 3.0 < max(roofs) <= top + 0.5
     # The hedge stands in it, too.
     assert np.nanmax(heights[:, int(-8.9 - low[0])]) > 1.0
+
+
+def test_a_street_says_which_features_are_windows(street: MadeStreet) -> None:
+    """Textures ask for the windows that a house has."""
+    assert street.bare_codes.shape == street.bare_kinds.shape
+    windows = street.bare_codes == SemanticClass.WINDOW.code
+    assert windows.sum() > 20
+    assert (street.bare_kinds[windows] == Kind.WALL).all()

@@ -38,7 +38,7 @@ def photograph_made(
     samples: int = 1,
 ) -> StreetPhoto:
     """One image from a vehicle's pose (3, 4). samples: rays of a pixel along both of its axes."""
-    pinhole = _pinhole(camera, camera.world_from_cam(world_from_vehicle))
+    pinhole = pinhole_of(camera, world_from_vehicle)
     seed = int(random.integers(2**31))
     taken = render(street.scene, pinhole, light, samples, seed).astype(np.float64)
     behind = render(street.bare, pinhole, light, samples, seed).astype(np.float64)
@@ -54,8 +54,9 @@ def photograph_made(
     return StreetPhoto(_bytes(gain * taken, noise), _bytes(_GAIN * behind), before, front)
 
 
-def _pinhole(camera: StreetCamera, world_from_cam: Floats) -> Camera:
-    pose = np.vstack([world_from_cam, [0.0, 0.0, 0.0, 1.0]])
+def pinhole_of(camera: StreetCamera, world_from_vehicle: Floats) -> Camera:
+    """As the renderer takes it, from a vehicle's pose (3, 4)."""
+    pose = np.vstack([camera.world_from_cam(world_from_vehicle), [0.0, 0.0, 0.0, 1.0]])
     middle = (camera.width_px / 2, camera.height_px / 2)
     return Camera(
         camera.width_px, camera.height_px, camera.focal_px, middle, np.linalg.inv(pose)

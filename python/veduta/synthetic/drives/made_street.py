@@ -52,14 +52,15 @@ class MadeStreetOptions:
 class MadeStreet:
     """scene: all of it. bare: without what stands before the houses.
 
-    kinds, bare_kinds: uint8 `Kind` of each feature of theirs. glazed: (f,) whether a feature of
-    `scene` may have glass.
+    kinds, bare_kinds: uint8 `Kind` of each feature of theirs. bare_codes: uint8 semantic class of
+    each of `bare`. glazed: (f,) whether a feature of `scene` may have glass.
     """
 
     scene: RayScene
     bare: RayScene
     kinds: NDArray[np.uint8]
     bare_kinds: NDArray[np.uint8]
+    bare_codes: NDArray[np.uint8]
     glazed: Bools
     length_m: float
     way: Way
@@ -133,7 +134,9 @@ def make_street(
         before += hedge_parts(options, seed)
     scene, kinds, glazed = _scene([*bare, *before])
     plain, bare_kinds, _ = _scene(bare)
-    return MadeStreet(scene, plain, kinds, bare_kinds, glazed, options.length_m, options.way)
+    codes = np.concatenate([one.part.features.class_code for one in bare]).astype(np.uint8)
+    length_m, way = options.length_m, options.way
+    return MadeStreet(scene, plain, kinds, bare_kinds, codes, glazed, length_m, way)
 
 
 def _houses(
