@@ -53,7 +53,7 @@ def _unpacked(path: Path, changed_ns: int, size: int) -> Path:
     try:
         with zipfile.ZipFile(path) as archive:
             folder = _extracted(path, archive)
-    except (zipfile.BadZipFile, RuntimeError, EOFError, zlib.error, OSError) as error:
+    except (zipfile.BadZipFile, RuntimeError, EOFError, zlib.error, OSError, ValueError) as error:
         fault = f"is no rule package that can be read ({error})"
         raise InputError(path, fault, "Share it anew, as a zip archive.") from error
     return _main_of(path, folder)
@@ -61,6 +61,8 @@ def _unpacked(path: Path, changed_ns: int, size: int) -> Path:
 
 def _extracted(path: Path, archive: zipfile.ZipFile) -> Path:
     """The folder with the files of the archive; names that lead out of it are a fault."""
+    if not all(member.filename for member in archive.infolist()):
+        raise zipfile.BadZipFile("it has a file without a name")
     members = [member for member in archive.infolist() if not member.is_dir()]
     size = sum(member.file_size for member in members)
     if len(members) > MAX_FILES or size > MAX_BYTES:

@@ -106,3 +106,17 @@ def test_a_file_where_a_folder_should_be_is_named(tmp_path: Path) -> None:
     path = package(tmp_path / "a.rpk", {"rules": "x", "rules/one.cga": "Lot --> NIL"})
     with pytest.raises(InputError, match=r"a\.rpk"):
         find_rules(str(path))
+
+
+def test_names_of_files_that_cannot_be_read_are_named(tmp_path: Path) -> None:
+    """One without letters, and one whose letters are no UTF-8 in a single of its two places."""
+    nameless = package(tmp_path / "b.rpk", {"QQ": "Lot --> NIL"})
+    nameless.write_bytes(nameless.read_bytes().replace(b"QQ", b"\0Q"))
+    with pytest.raises(InputError, match="a file without a name"):
+        find_rules(str(nameless))
+    path = package(tmp_path / "c.rpk", {"rules/äb.cga": "Lot --> NIL"})
+    data = path.read_bytes()
+    name = "rules/äb.cga".encode()
+    path.write_bytes(data.replace(name, name.replace(b"\xa4", b"\xff"), 1))
+    with pytest.raises(InputError, match=r"c\.rpk.*no rule package that can be read"):
+        find_rules(str(path))

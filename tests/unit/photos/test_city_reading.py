@@ -11,6 +11,7 @@ import numpy as np
 import pyproj
 import pytest
 
+from veduta.photos.city.crs import metres_of
 from veduta.photos.city.facades import facades_of
 from veduta.photos.city.model import CityModel
 from veduta.photos.city.reading import read_city_model
@@ -235,3 +236,10 @@ def test_delft() -> None:
     facades = facades_of(model)
     assert 800 < len(facades) < 1300
     assert 0.1 < facades.hidden.mean() < 0.4
+
+
+def test_a_crs_without_a_way_to_metres_is_named() -> None:
+    """EPSG:5832 (zone 2, whose eastings begin at 2,500 km) where it is not used."""
+    sample = np.array([[500_000.0, 5_000_000.0, 80.0]])
+    with pytest.raises(InputError, match=r"EPSG:5832.*not known how to make metres"):
+        metres_of("points.txt", "EPSG:5832", sample)

@@ -80,7 +80,10 @@ def metres_of(subject: str | Path, crs: str, sample: NDArray[np.float64]) -> Met
     if not (np.isfinite([longitude, latitude]).all() and abs(latitude) < 80.0):
         raise _unusable(subject, crs)
     target = f"EPSG:{epsg_of(zone_of(longitude), south=latitude < 0)}"
-    way = pyproj.Transformer.from_crs(known, target, always_xy=True, allow_ballpark=False)
+    try:
+        way = pyproj.Transformer.from_crs(known, target, always_xy=True, allow_ballpark=False)
+    except pyproj.exceptions.ProjError as error:
+        raise _unusable(subject, crs) from error
     note = f"coordinates were converted from {crs} to metres in {target} (WGS 84 / UTM)"
     return Metres(target, way, (note,))
 
