@@ -1,23 +1,21 @@
 /** Opens the place that the page's address asks for. */
-import type { FeatureTable } from "../core/features.ts";
 import { STANDING } from "../core/animal.ts";
 import { beginsWithAnimal } from "../core/animal-view.ts";
 import type { Missing } from "../core/asking.ts";
-import { budgetOf } from "../core/budget.ts";
+import { type Budget, budgetOf } from "../core/budget.ts";
 import { type SunPath, sunPathOf } from "../core/daylight.ts";
 import { Fault } from "../core/fault.ts";
+import type { FeatureTable } from "../core/features.ts";
 import type { House } from "../core/house.ts";
 import type { MorphState } from "../core/morph-walk.ts";
-import { fileAddress, type Part, placeAddress, readPlace, type Place } from "../core/place.ts";
+import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
 import type { FeatureRef, Layer, StudioState } from "../core/state.ts";
-import type { Sight } from "../core/sight.ts";
 import type { Store } from "../core/store.ts";
-import { Wishes } from "../core/wishes.ts";
-import { Arrivals } from "../three/arrivals.ts";
-import { fetchBytes, fetchText } from "../three/fetch.ts";
-import type { LoadedHouse } from "../three/household.ts";
+import { fetchText } from "../three/fetch.ts";
 import type { Town } from "../three/town.ts";
 import type { Viewer } from "../three/viewer.ts";
+import { Arriving, type Asked, type OnProgress } from "./arriving.ts";
+import { firstOff, recordsOf } from "./first-layers.ts";
 import { HeadStart } from "./head-start.ts";
 
 export interface Session {
@@ -46,158 +44,69 @@ export interface Session {
   readonly bitmap: (index: number, side_px: number) => Promise<ImageBitmap>;
 }
 
-/** A place of so few parts is shown when all have come: they belong together, as a house and its garden do. */
-const FEW_PARTS = 4;
-
 /** Nothing is left over of a place that cannot be opened: neither what asks for its files nor what draws it. */
 export async function openPlace(
   page: URL,
   canvas: HTMLCanvasElement,
   store: Store<StudioState>,
-  onProgress: (share: number, file: string) => void,
+  onProgress: OnProgress,
   onShown: () => void,
 ): Promise<Session> {
-  const opened: Opened[] = [];
+  const begin = performance.now();
+  checkWebGL();
+  const asked = await ask(page, onProgress);
+  const budget = budgetOf(asked.place, { isSmall: matchMedia("(pointer: coarse)").matches });
+  const arriving = new Arriving(asked, budget, onShown);
   try {
-    return await open(page, canvas, store, onProgress, onShown, opened);
+    await arriving.begin(onProgress);
+    const viewer = viewerOf(asked, arriving, budget, canvas, store);
+    arriving.viewer = viewer;
+    viewer.warm();
+    await arriving.arrived();
+    await viewer.prepare();
+    onProgress(1, "");
+    arriving.goOn();
+    return sessionOf(asked, arriving, viewer, (performance.now() - begin) / 1000);
   } catch (error) {
-    for (const one of opened.reverse()) one.dispose();
+    arriving.dispose();
     throw error;
   }
 }
 
-interface Opened {
-  dispose(): void;
-}
-
-async function open(
-  page: URL,
-  canvas: HTMLCanvasElement,
-  store: Store<StudioState>,
-  onProgress: (share: number, file: string) => void,
-  onShown: () => void,
-  opened: Opened[],
-): Promise<Session> {
-  const begin = performance.now();
-  checkWebGL();
+/** The place's index, and all that can be asked for meanwhile. */
+async function ask(page: URL, onProgress: OnProgress): Promise<Asked> {
   const address = placeAddress(page);
   // The index of the place is asked for first: the program's pieces would stand before it in the browser's queue.
   const text = fetchText(address, "place.json");
   const drawing = import("./drawing.ts");
   onProgress(0, "place.json");
   const place = readPlace(await text, "place.json");
-  const { tileset } = place;
-  const wanted = tileset === null ? place.parts : [];
-  const shares = wanted.map(() => 0);
-  const fetchPart = async ({ model }: Part, index: number): Promise<ArrayBuffer> => {
-    return await fetchBytes(fileAddress(model, address), model, (got, total) => {
-      shares[index] = total === null ? 0.5 : got / total;
-      onProgress(0.97 * Math.max(0.02, mean(shares)), model);
-    });
-  };
-  const headStart = new HeadStart(wanted.length <= FEW_PARTS ? wanted : [], fetchPart);
-  const { CloudArrivals, Frusta, Grower, bringHouse, readPart, MorphShow, PartSlot, stillOf, SharedImages, bitmapOf, PhotoTextures, bringingBy, Recorded, Town, Viewer } =
-    await drawing;
-  const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
-  let viewer: Viewer | null = null;
-  const town =
-    tileset === null
-      ? null
-      : new Town(fileAddress(tileset, address), budget, () => viewer?.invalidate(), onShown);
-  // A viewer lets go of what it draws.
-  opened.push({
-    dispose: () => {
-      (viewer ?? town)?.dispose();
-      viewer = null; // for what comes after that
-    },
-  });
-  const parts = wanted.map((part) => new PartSlot(part));
-  const images = new SharedImages(budget.mostTexture_px);
-  // What is asked for as one looks about: pictures, models of a walk, documents.
-  const wishes = new Wishes(() => {
-    viewer?.invalidate();
-    onShown();
-  });
-  const alive = new Set(place.animals.map(({ part }) => part));
-  const grower = new Grower();
-  opened.push(wishes, grower);
-  const houses: LoadedHouse[] = [];
-  let tables: readonly FeatureTable[] = parts.map(({ table }) => table);
-  const sight = (): Sight => viewer?.sight ?? { eye: place.start.eye, direction: null, half_rad: 0 };
-  const bring = async (index: number): Promise<void> => {
-    const slot = parts[index];
-    if (slot === undefined) return;
-    const loaded = await readPart(slot.part, await headStart.bytesOf(slot.part, index), images);
-    loaded.group.updateMatrixWorld(true);
-    const meets = !slot.part.isBackdrop && !alive.has(index);
-    const taken = (meets ? grower.solidOf(stillOf(loaded), index) : Promise.resolve(null)).then((solid) => {
-      slot.take(loaded, solid);
-      tables = [...tables]; // the panels count anew
-      viewer?.take(index);
-    });
-    // Its document comes while the worker builds what one bumps into.
-    const house = bringHouse(loaded, address, houses.length, wishes, taken, (one) => {
-      houses.push({ house: one, part: slot });
-      viewer?.household.take({ house: one, part: slot });
-    });
-    await Promise.all([taken, house]);
-    viewer?.warm(slot.group); // not before: with its rooms a house is drawn by other programs
-  };
-  const arrivals = new Arrivals(wanted, sight, bring, onShown);
-  opened.push(arrivals);
-  arrivals.start();
-  await town?.open((share) => onProgress(share, "tileset.json"));
-  const isSized = parts.every(({ part }) => part.bounds !== null);
-  const arrived = async (): Promise<void> => {
-    await (parts.length <= FEW_PARTS || !isSized ? arrivals.tried() : arrivals.first());
-    const [firstMissing] = arrivals.missing;
-    if (firstMissing !== undefined && !parts.some(({ isThere }) => isThere)) throw firstMissing.fault;
-  };
-  if (!isSized) await arrived();
-  const showClouds = (): void => {
-    viewer?.takeClouds();
-    onShown();
-  };
-  const clouds = new CloudArrivals(place.clouds, address, showClouds);
-  opened.push(clouds);
-  // Points are waited for where there is nothing else to see.
-  const isCloudAlone = place.parts.length + place.walks.length === 0 && town === null;
-  if (isCloudAlone) await clouds.bring((share, file) => onProgress(0.97 * share, file));
-  const [firstCloud] = clouds.missing;
-  if (firstCloud !== undefined && clouds.group.children.length === 0) throw firstCloud.fault;
+  const headStart = new HeadStart(place.tileset === null ? place.parts : [], address, (share, file) => onProgress(0.97 * share, file));
+  return { place, address, drawing: await drawing, headStart };
+}
+
+function viewerOf({ place, address, drawing }: Asked, arriving: Arriving, budget: Budget, canvas: HTMLCanvasElement, store: Store<StudioState>): Viewer {
+  const { MorphShow, PhotoTextures, Frusta } = drawing;
+  const { parts, recorded, town, houses, wishes, clouds } = arriving;
+  const invalidate = (): void => arriving.viewer?.invalidate();
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, budget.mostTexture_px, wishes);
-  const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
-  const sunPath = sunPathOf(place.sun);
+  const frusta = textures === null ? null : new Frusta(place, textures, invalidate);
   store.update({ animal: { ...STANDING, following: beginsWithAnimal(place) } });
-  store.update({ off: firstOff(place), fading: !place.hidden.has("photos"), hour: sunPath.firstHour });
-  const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, budget.mostTexture_px, () => viewer?.invalidate(), wishes);
+  store.update({ off: firstOff(place), fading: !place.hidden.has("photos"), hour: sunPathOf(place.sun).firstHour });
+  const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, budget.mostTexture_px, invalidate, wishes);
   if (morphs !== null) store.update({ morph: strollFrom(0) });
-  const recorded = new Recorded(
-    parts,
-    async (part) => {
-      const bytes = await fetchBytes(fileAddress(part.model, address), part.model, () => undefined);
-      return (await readPart(part, bytes, images)).group.children;
-    },
-    () => {
-      viewer?.invalidate();
-      onShown();
-    },
-    bringingBy(sight),
-  );
-  opened.push(recorded);
-  viewer = new Viewer(canvas, place, { parts, recorded, town, clouds: clouds.group, frusta, textures, houses, budget, morphs }, store);
-  viewer.warm();
-  await arrived();
-  await viewer.prepare();
-  onProgress(1, "");
-  if (!isCloudAlone) void clouds.bring(() => undefined).then(showClouds);
+  return new drawing.Viewer(canvas, place, { parts, recorded, town, clouds: clouds.group, frusta, textures, houses, budget, morphs }, store);
+}
+
+function sessionOf({ place, address, drawing }: Asked, arriving: Arriving, viewer: Viewer, loadSeconds: number): Session {
+  const { town, houses } = arriving;
   return {
     place,
     get tables() {
-      return town?.tables ?? tables;
+      return arriving.tables;
     },
     town,
-    sunPath,
+    sunPath: sunPathOf(place.sun),
     get houses() {
       return houses.map(({ house }) => house);
     },
@@ -205,25 +114,18 @@ async function open(
       return houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0));
     },
     get onTheWay() {
-      const missing = [...(town?.missing ?? arrivals.missing), ...recorded.missing, ...clouds.missing, ...wishes.missing];
-      return { waiting: arrivals.waiting + recorded.waiting + clouds.waiting, unseen: wishes.waiting, missing };
+      return arriving.onTheWay;
     },
-    askNow: () => {
-      arrivals.askNow();
-      recorded.askNow();
-      clouds.askNow();
-      wishes.askNow();
-      town?.askNow();
-    },
+    askNow: () => arriving.askNow(),
     records: recordsOf(place, town !== null),
     nameOf: (ref) => town?.nameOf(ref) ?? place.parts[ref.part]?.name ?? "",
     viewer,
     bitmap: async (index, side_px) => {
       const shot = place.shots[index];
       if (shot === undefined) throw new Fault(`photo ${index}`, "the place has none of that number", "Reload the page.");
-      return await bitmapOf(shot, address, side_px, "from-image");
+      return await drawing.bitmapOf(shot, address, side_px, "from-image");
     },
-    loadSeconds: (performance.now() - begin) / 1000,
+    loadSeconds,
     photoAddress: (index) => {
       const photo = town === null ? (place.parts[index]?.photo ?? null) : null;
       return photo === null ? null : fileAddress(photo, address).href;
@@ -240,34 +142,6 @@ export function ownerOf(session: Session, ref: FeatureRef): string {
 export function strollFrom(which: number): MorphState {
   const instant = matchMedia("(prefers-reduced-motion: reduce)").matches;
   return { which, at: 0, playing: false, look: "picture", instant };
-}
-
-function mean(values: readonly number[]): number {
-  return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
-}
-
-/** What lies in one another is not seen at once: first the model, and points in their own colours. */
-function firstOff({ parts, clouds, tileset, hidden }: Place): ReadonlySet<Layer> {
-  const hasModel = tileset !== null || parts.some(({ layer }) => layer === "model");
-  const asked = (["points", "cameras"] as const).filter((layer) => hidden.has(layer));
-  const doubled = clouds.some(({ layer }) => layer === "distances") ? (["distances"] as const) : [];
-  const recorded = parts.some(({ raw }) => raw !== null) ? (["raw"] as const) : [];
-  return new Set<Layer>([...(hasModel ? (["walls"] as const) : []), ...doubled, ...recorded, ...asked]);
-}
-
-function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
-  const isRecorded = !hasTown && parts.some(({ raw }) => raw !== null);
-  if (clouds.length + shots.length === 0 && !isRecorded) return [];
-  const has: Readonly<Record<Layer, boolean>> = {
-    model: hasTown || parts.some(({ layer }) => layer === "model"),
-    walls: !hasTown && parts.some(({ layer }) => layer === "walls"),
-    points: clouds.some(({ layer }) => layer === "points"),
-    distances: clouds.some(({ layer }) => layer === "distances"),
-    cameras: shots.length > 0,
-    raw: isRecorded,
-    backdrop: false, // a switch of the house's own panel
-  };
-  return (["model", "raw", "walls", "points", "distances", "cameras"] as const).filter((layer) => has[layer]);
 }
 
 /** Nothing can be drawn in space. */
