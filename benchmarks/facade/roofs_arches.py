@@ -144,7 +144,7 @@ def _roofs(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[Row]:
             ]
             if not some:
                 continue
-            told = Counter(TOLD[one["roof"]] if one else "refused" for one in some)
+            told = Counter(TOLD[one["roof"]] if "roof" in one else "refused" for one in some)
             columns = {f"told {kind}": told[kind] for kind in (*KINDS, "refused")}
             yield {
                 "what": f"roofs, {title}: {true}", "number": len(some), **columns,
@@ -219,7 +219,9 @@ def _wrong(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[str]:
     roofs = [
         f"{name} {marks[name]['roof']} as {one['roof']} ({one['roof_m']} m)"
         for name, one in found.items()
-        if one and marks[name]["roof"] in KINDS and TOLD[one["roof"]] != marks[name]["roof"]
+        if "roof" in one
+        and marks[name]["roof"] in KINDS
+        and TOLD[one["roof"]] != marks[name]["roof"]
     ]
     yield f"Roofs told wrongly: {', '.join(roofs) or 'none'}."
     heads = Counter(name for name, true, told in _openings(marks, found) if true != told)
