@@ -22,7 +22,13 @@ from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.railing_boxes import on_railings
 from veduta.facade.rectify import Rectified
 from veduta.facade.scale import scale_notes
-from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop, on_their_floors
+from veduta.facade.seen_boxes import (
+    boxes_of,
+    columns_of,
+    in_crop,
+    on_their_floors,
+    with_panes_of_shops,
+)
 from veduta.facade.seen_front import (
     BEFORE,
     WALL,
@@ -55,6 +61,11 @@ class _Front:
     def wall(self) -> Float:
         """(h, w) the chance of wall, at the size of the evidence."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), *WALL)
+
+    @cached_property
+    def shop(self) -> Float:
+        """(h, w) the chance of shop, at the same size."""
+        return self.seen.chance_at((self.evidence.width, self.evidence.height), "shop")
 
     @cached_property
     def hidden(self) -> Float:
@@ -252,6 +263,8 @@ def _read(
     with timed_step(steps, "openings") as step:
         elements = [e for e in elements if e not in storeys.none]
         elements = on_their_floors(elements, storeys.floors.boundaries)
+        shop = front.shop[: inner.height, sides.left : sides.right]
+        elements = with_panes_of_shops(elements, storeys.floors.boundaries, shop)
         columns = columns_of(elements)
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)
         panes = [box for box in boxes if front.is_pane(box, sides.left)]

@@ -11,7 +11,7 @@ from veduta.facade.evidence import gather
 from veduta.facade.extent import Skyline, find_skyline
 from veduta.facade.eyes import Seen, SeenElement
 from veduta.facade.options import FacadeOptions
-from veduta.facade.seen_boxes import on_their_floors
+from veduta.facade.seen_boxes import on_their_floors, with_panes_of_shops
 from veduta.facade.seen_front import FrontParameters, require_front
 from veduta.facade.seen_storeys import storeys_of
 from veduta.run.errors import NotFoundError
@@ -99,3 +99,16 @@ def test_the_eyes_tell_a_white_wall_from_a_white_sky() -> None:
     alone, both = find_skyline(evidence), find_skyline(evidence, sky)
     assert alone.level > 0.45 * evidence.height
     assert both.level == pytest.approx(0.2 * evidence.height, abs=3)
+
+
+def test_windows_beside_a_shop_that_look_like_one_are_panes_of_shops() -> None:
+    """Not above the ground floor, not in the shop itself, and not where no shop is."""
+    shop = SeenElement("shop", 0.0, 105.0, 30.0, 125.0, 0.9)
+    inner, pane = element("window", 10.0, 105.0), element("window", 40.0, 105.0)
+    plain, upper = element("window", 60.0, 105.0), element("window", 40.0, 70.0)
+    chance = np.zeros((130, 80), np.float32)
+    chance[:, :52] = 0.2
+    some = [shop, inner, pane, plain, upper]
+    kinds = [e.kind for e in with_panes_of_shops(some, FLOORS, chance)]
+    assert kinds == ["shop", "window", "shop", "window", "window"]
+    assert with_panes_of_shops(some[1:], FLOORS, chance) == some[1:]
