@@ -131,6 +131,12 @@ def rendered(path: Path) -> tuple[list[Case], list[Case]]:
     return [c for c in own if c is not None], [c for c in without if c is not None]
 
 
+def told_now(logs: str) -> list[tuple[str, float]]:
+    """What the step tells by its present odds of a front whose likelihoods were kept, as JSON."""
+    case = _case(json.loads(logs), NONE)
+    return [] if case is None else sorted(case.chances(USUAL).items(), key=lambda one: -one[1])
+
+
 def photographed(path: Path) -> list[Case]:
     """Pictures that have none of the styles."""
     found = [_case(logs, NONE) for logs in dict(_logs(path)).values()]

@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from facade_truth import Labelled, cmp, ecp
 from record import keep_or_print
+from style_odds import told_now
 from style_rows import Row, logs_of, rows_of, told
 
 from veduta.facade.analyse import analyse
@@ -52,6 +53,7 @@ def main() -> None:
     pictures = ecp(DATA, "val") if call.set == "ecp" else _of_cmp(call.set == "cmp")
     paths = {one.name: one.image for one in pictures[: call.images]}
     rows = rows_of(call.rows, paths, lambda name: measured(name, paths[name]), call.most)
+    rows = [with_odds(row) for row in rows]
     right = sum(row["found"] == RIGHT for row in rows)
     best = sum(row["best style"] == RIGHT for row in rows)
     none = sum(row["found"] == "none" for row in rows)
@@ -63,6 +65,18 @@ def main() -> None:
         " has.",
     ]
     keep_or_print(f"facade-style-{call.set}", told(rows), notes, not call.draft)
+
+
+def with_odds(row: Row) -> Row:
+    """The row with the present odds of the likelihoods that were kept: a search knows nothing of
+    them.
+    """
+    chances = told_now(str(row["logs"])) if "logs" in row else []
+    if not chances:
+        return row
+    second = chances[1][0] if len(chances) > 1 else ""
+    found, chance = chances[0]
+    return {**row, "found": found, "chance": round(chance, 4), "second": second}
 
 
 def _of_cmp(held_out: bool) -> list[Labelled]:

@@ -240,19 +240,23 @@ def test_parts_are_sound(path: Path) -> None:
 
 
 def test_the_floors_of_haussmann_are_those_of_table_6_2() -> None:
-    """The variations of the table, at the frequencies of figure 6.7 with one added to each."""
+    """The variations of the table, at the frequencies of figure 6.7 with one added to each.
+
+    Behind them stand those that are not in the table, each as often as one that was never chosen.
+    """
     text = find_rules("haussmann").read_text("utf-8")
     assert len(re.findall(r"^\w+(?:\([^)]*\))? -->", text, re.MULTILINE)) >= 40
     floors = ("FirstFloor", "SecondFloor", "ThirdFloor", "FourthFloor", "FifthFloor")
-    for place, (floor, variations) in enumerate(zip(floors, (2, 2, 2, 2, 3), strict=True)):
+    counts = zip(floors, (2, 2, 2, 2, 3), (0, 2, 1, 1, 1), strict=True)
+    for place, (floor, variations, others) in enumerate(counts):
         (body,) = re.findall(rf"^{floor} -->\n((?:    .*\n)+)", text, re.MULTILINE)
         said = [int(value) for value in re.findall(r"(\d+)% :", body)]
         chosen = [facade[place] for facade in FIGURE_6_7]
         truth = [
-            100 * (chosen.count(str(number)) + 1) / (len(chosen) + variations)
-            for number in range(1, variations + 1)
+            100 * (chosen.count(str(number)) + 1) / (len(chosen) + variations + others)
+            for number in range(1, variations + others + 1)
         ]
-        assert [*said, 100 - sum(said)] == pytest.approx(truth, abs=0.6), floor
+        assert [*said, 100 - sum(said)] == pytest.approx(truth, abs=0.7), floor
 
 
 # ---- shapes of the parts, against closed forms --------------------------------------------------

@@ -14,8 +14,7 @@ first ten that are not told as Haussmann none was then, as the other styles gain
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,12 +41,42 @@ class DeformParameters:
 
 
 @dataclass(frozen=True)
+class Borders:
+    """Between columns (`across`) and rows (`up`) of elements, in metres: as drawn, and moved."""
+
+    across: tuple[Float, Float]
+    up: tuple[Float, Float]
+
+    def carry(self, front: Front) -> Front:
+        """A front, drawn on the same storeys and bays, with their borders moved."""
+        boxes = {
+            kind: np.stack(
+                [
+                    _moved(b[:, 0], self.across),
+                    _moved(b[:, 1], self.up),
+                    _moved(b[:, 2], self.across),
+                    _moved(b[:, 3], self.up),
+                ],
+                axis=1,
+            )
+            for kind, b in front.boxes.items()
+        }
+        roofs = tuple(
+            np.stack([_moved(r[:, 0], self.across), _moved(r[:, 1], self.up)], axis=1)
+            for r in front.roofs
+        )
+        eaves = float(_moved(np.array([front.eaves_m]), self.up)[0])
+        return replace(front, eaves_m=eaves, roofs=roofs, boxes=boxes)
+
+
+@dataclass(frozen=True)
 class Deformed:
     """The likeliest deformed front; log_likelihood: of what was seen; log_cost: at most 0."""
 
     front: Front
     log_likelihood: float
     log_cost: float
+    borders: Borders = field(repr=False)
 
     @property
     def log_total(self) -> float:
@@ -113,31 +142,20 @@ class _Climb:
         return best
 
     def _scored(self) -> Deformed:
-        front = self._front()
+        across, up = ((d, a.copy()) for d, a in zip(self.drawn, self.at, strict=True))
+        borders = Borders(across, up)
+        front = borders.carry(self.front)
         cost = 0.0
-        for axis, deviation in ((0, self.p.bays), (1, self.p.storeys)):
-            ratio = np.log(np.diff(self.at[axis]) / np.diff(self.drawn[axis]))
+        for (drawn, at), deviation in ((across, self.p.bays), (up, self.p.storeys)):
+            ratio = np.log(np.diff(at) / np.diff(drawn))
             cost -= 0.5 * float((ratio**2).sum()) / deviation**2
-        return Deformed(front, log_likelihood(front, self.observed, self.own), cost)
+        return Deformed(front, log_likelihood(front, self.observed, self.own), cost, borders)
 
-    def _front(self) -> Front:
-        across, up = self._along(0), self._along(1)
-        boxes = {
-            kind: np.stack([across(b[:, 0]), up(b[:, 1]), across(b[:, 2]), up(b[:, 3])], axis=1)
-            for kind, b in self.front.boxes.items()
-        }
-        roofs = tuple(np.stack([across(r[:, 0]), up(r[:, 1])], axis=1) for r in self.front.roofs)
-        eaves = float(up(np.array([self.front.eaves_m]))[0])
-        return replace(self.front, eaves_m=eaves, roofs=roofs, boxes=boxes)
 
-    def _along(self, axis: int) -> Callable[[Float], Float]:
-        drawn, now = self.drawn[axis], self.at[axis]
-
-        def moved(values: Float) -> Float:
-            beyond = np.maximum(values - drawn[-1], 0.0) + np.minimum(values - drawn[0], 0.0)
-            return np.asarray(np.interp(values, drawn, now) + beyond, np.float64)
-
-        return moved
+def _moved(values: Float, borders: tuple[Float, Float]) -> Float:
+    drawn, now = borders
+    beyond = np.maximum(values - drawn[-1], 0.0) + np.minimum(values - drawn[0], 0.0)
+    return np.asarray(np.interp(values, drawn, now) + beyond, np.float64)
 
 
 def _borders(middles: Float, low: float, high: float, apart: float) -> Float:

@@ -11,6 +11,7 @@ import numpy as np
 from veduta.facade.document import FacadeDocument
 from veduta.facade.style.deformed import Deformed, deformed
 from veduta.facade.style.grammar import ANY_FRONT, StyleGrammar, style_grammar
+from veduta.facade.style.likelihood import log_likelihood
 from veduta.facade.style.observed import Observed
 from veduta.facade.style.posterior import Posterior, Scored
 from veduta.facade.style.prior import Choice, Real
@@ -69,10 +70,10 @@ class InferParameters:
     hopeless_nats: float = 70.0
     near_nats: float = 35.0
     near_steps: int = 40
-    temperature: float = 15.33
-    none_offset: float = 6.0
-    none_worse: float = 7.5
-    none_apart: float = 11.9
+    temperature: float = 21.0
+    none_offset: float = 6.4
+    none_worse: float = 6.3
+    none_apart: float = 12.6
 
 
 USUAL = InferParameters()
@@ -92,6 +93,21 @@ class Candidate:
         """With the likeliest house whose sizes are not quite those of the structure."""
         found = deformed(self.best.front, self.posterior.observed, self.posterior.parameters)
         return replace(self, real=found)
+
+    def settled(self, rng: np.random.Generator) -> Candidate:
+        """The same with what its rules choose where storeys and bays really are.
+
+        A search compares choices in the front as drawn, where a floor that lies a little off has
+        no railing where one was seen. So each choice is tried again with the borders moved.
+        """
+        found = self if self.real is not None else self.deformed()
+        if found.real is None or not found.best.state.choices:
+            return found
+        chosen = _rechosen(found, found.real, rng)
+        if chosen is found.best:
+            return found
+        other = replace(found, best=chosen).deformed()
+        return _better(found, other)
 
     @property
     def name(self) -> str:
@@ -255,8 +271,30 @@ def _climbed(
             heard(one.name, STARTED + (CLIMBED - STARTED) * place / len(started))
         hopeless = one.name != ANY_FRONT and one.log_evidence < best - one.parameters.hopeless_nats
         climb = None if hopeless else climbed(one.posterior, one.best.state, rng)
-        found.append(one if climb is None else _better(one, replace(one, best=climb).deformed()))
+        if climb is not None:
+            one = _better(one, replace(one, best=climb, real=None).settled(rng))
+        found.append(one)
     return found
+
+
+def _rechosen(candidate: Candidate, real: Deformed, rng: np.random.Generator) -> Scored:
+    """The structure with the likeliest alternative of each choice, its borders kept."""
+    posterior, at = candidate.posterior, candidate.best
+
+    def level(one: Scored) -> float:
+        front = real.borders.carry(one.front)
+        seen = log_likelihood(front, posterior.observed, posterior.parameters)
+        return seen + math.fsum(taken.log_chance for taken in one.state.choices.values())
+
+    highest = level(at)
+    for path in sorted(at.state.choices):
+        taken = at.state.choices.get(path)
+        others = () if taken is None else tuple(posterior.grammar.alternatives(path, taken))
+        for other in others:
+            found = posterior.score(at.state.with_choice(path, other), rng, (at.state, path))
+            if found is not None and (new := level(found)) > highest:
+                at, highest = found, new
+    return at
 
 
 def _within(
@@ -277,7 +315,7 @@ def _walked(
     """The same after a short chain from its structure: climbs end at the first edge."""
     short = SearchParameters(betas=(1.0,), steps=candidate.parameters.near_steps)
     found = search(candidate.posterior, [candidate.best], rng, short, told)
-    return _better(candidate, replace(candidate, best=found.best).deformed())
+    return _better(candidate, replace(candidate, best=found.best, real=None).settled(rng))
 
 
 def _better(one: Candidate, other: Candidate) -> Candidate:
@@ -293,4 +331,5 @@ def _searched(
 ) -> Candidate:
     told = _within(heard, candidate.name, WALKED, 1.0)
     found = search(candidate.posterior, [candidate.best], rng, parameters, told)
-    return replace(candidate, best=found.best, searched=found).deformed()
+    walked = replace(candidate, best=found.best, searched=found, real=None).settled(rng)
+    return _better(replace(candidate, searched=found), walked)

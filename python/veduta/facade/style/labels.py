@@ -20,17 +20,22 @@ class LabelParameters:
     """What of a derived front one sees from the street.
 
     roof_m: a lower roof is not seen. balcony_m: balconies that are lower are their slabs alone;
-    their railings have boxes of their own. hides: a railing hides what is behind it where it is
-    before so much of an opening's width. foot_m: how far above an opening's foot it may begin.
+    their railings have boxes of their own. under_m: what carries a slab, consoles and their shadow,
+    reaches so far below it, and is of the balcony for the eyes: CMP's balconies are drawn so.
+    hides: a railing hides what is behind it where it is before so much of an opening's width.
+    foot_m: how far above an opening's foot it may begin.
     """
 
     roof_m: float = 0.4
     balcony_m: float = 0.5
+    under_m: float = 0.3
     hides: float = 0.6
     foot_m: float = 0.5
 
 
 _OWN = LabelParameters()
+_ON_SLAB_M = 0.2
+"""A railing whose foot is so near to a slab's top stands on it."""
 
 
 @dataclass(frozen=True)
@@ -77,9 +82,17 @@ def painted(front: Front, shape: tuple[int, int], cell_m: float) -> NDArray[np.i
 
 
 def _railings(boxes: Float) -> Float:
-    """One box for each balcony: those of railings, each once."""
-    high = boxes[boxes[:, 3] - boxes[:, 1] >= _OWN.balcony_m]
-    return np.unique(high.round(1), axis=0)
+    """One box for each balcony: those of railings, each once, with the slab that carries one."""
+    is_high = boxes[:, 3] - boxes[:, 1] >= _OWN.balcony_m
+    high, slabs = np.unique(boxes[is_high].round(1), axis=0), boxes[~is_high]
+    if not len(high) or not len(slabs):
+        return high
+    beside = np.minimum(high[:, None, 2], slabs[:, 2]) - np.maximum(high[:, None, 0], slabs[:, 0])
+    carries = beside > _OWN.hides * (high[:, 2] - high[:, 0])[:, None]
+    carries &= np.abs(high[:, None, 1] - slabs[:, 3]) < _ON_SLAB_M
+    foot = np.where(carries, slabs[:, 1] - _OWN.under_m, np.inf).min(axis=1)
+    high[:, 1] = np.minimum(high[:, 1], foot)
+    return high
 
 
 def _above_railings(windows: Float, railings: Float) -> Float:

@@ -114,9 +114,14 @@ def usual_states(grammar: StyleGrammar, eaves_m: float, rng: np.random.Generator
 def best_start(
     posterior: Posterior, states: Sequence[State], rng: np.random.Generator
 ) -> Scored | None:
-    """The likeliest of some states; None where none makes a building."""
+    """The likeliest of some states, each with its best choices; None where none makes a building.
+
+    What a state leaves open is drawn at first: a front of the right size that drew other railings
+    than were seen would lose against one of a wrong size that drew better ones.
+    """
     scored = [found for state in states if (found := posterior.score(state, rng)) is not None]
-    return max(scored, key=lambda one: one.log_posterior, default=None)
+    chosen = [_best_choices(posterior, one, rng) for one in scored]
+    return max(chosen, key=lambda one: one.log_posterior, default=None)
 
 
 def climbed(posterior: Posterior, start: State, rng: np.random.Generator) -> Scored | None:
