@@ -99,9 +99,9 @@ def main() -> None:
     notes = [
         f"Load at the end: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores, as the seconds say.",
         f"{PHOTOS} photos of {WIDTH} x {HEIGHT} on an arc of 76 degrees, {AWAY_M} m away.",
-        f"A pixel is {1000 * PIXEL_M:.0f} mm on the objects. Spots that two photos see count, of every"
-        " fourth photo; of each cloud one point in each cell of a pixel's size. Ours has what two"
-        " other photos confirm, as a call without options has.",
+        f"A pixel is {1000 * PIXEL_M:.0f} mm on the objects. Spots that two photos see count, of"
+        " every fourth photo; of each cloud one point in each cell of a pixel's size. Ours has what"
+        " two other photos confirm, as a call without options has.",
     ]
     keep_or_print("dense-objects", rows, notes, given.keep)
 

@@ -265,8 +265,8 @@ def main() -> None:
     notes = [
         f"Load at the end: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores, as the seconds say.",
         f"{PHOTOS} photos of {WIDTH} x {HEIGHT}, {AWAY_M} m away, {APART_M} m apart, with noise.",
-        f"A pixel is {1000 * PIXEL_M:.0f} mm on the wall. Of each cloud one point in each cell of that"
-        " size counts; ours has what two other photos confirm, as a call without options has.",
+        f"A pixel is {1000 * PIXEL_M:.0f} mm on the wall. Of each cloud one point in each cell of"
+        " that size counts; ours has what two other photos confirm, as a call without options has.",
     ]
     keep_or_print("dense-synthetic", rows, notes, given.keep)
 
