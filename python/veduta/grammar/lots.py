@@ -65,10 +65,12 @@ from veduta.grammar.spool import Record, Spool
 from veduta.grammar.streets import roads_among
 from veduta.grammar.taken_names import TakenNames
 from veduta.grammar.terrain import Ground, NoGroundError, Terrain, read_terrain
+from veduta.grammar.unread import remedy_for
+from veduta.grammar.vector_lots import FOLDERS, vector_outlines
 from veduta.grammar.vector_lots import SUFFIXES as VECTORS
-from veduta.grammar.vector_lots import vector_outlines
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.names import real_path
 from veduta.run.outputs import writing_to
 
 MAX_BYTES = 64 * 2**20
@@ -113,7 +115,8 @@ def read_lots(
     is told how far the reading of many has come.
     """
     options = options or LotOptions()
-    found, survey = Found(), Survey()
+    found = Found(is_settled=options.crs is not None, has_roads=options.roads is not None)
+    survey = Survey()
     room = folder or Path(tempfile.gettempdir())
     with writing_to(room), contextlib.closing(Spool(folder)) as spool:
         for outline in _outlines_of(path, options, found, folder):
@@ -129,6 +132,8 @@ def read_lots(
             raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
         frame = find_frame(path, found.epsg, survey, lambda: (_first_ring(one) for one in spool))
         terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
+        if options.roads is not None and real_path(options.roads) == real_path(path):
+            found.roads.clear()  # they come with all others of the file
         roads = roads_among(options.roads, found, frame)
         outlines = [] if len(roads) or len(spool) > MOST else map(_outline, spool)
         free = free_fronts(outlines, frame)
@@ -297,6 +302,8 @@ def _first_ring(record: Record) -> NDArray[np.float64]:
 
 
 def _require(path: Path) -> None:
+    if path.suffix.lower() in FOLDERS and path.is_dir():
+        return
     try:
         require_file(path)
     except FileNotFoundError as error:
@@ -316,7 +323,7 @@ def _read_json(path: Path) -> dict[str, Any]:
     except RecursionError as error:
         raise InputError(path, "is nested too deep", "Check that it is GeoJSON.") from error
     except ValueError as error:  # bad JSON, bad UTF-8, a number that is none
-        remedy = f"Save it as GeoJSON or GeoPackage; read are also {', '.join(VECTORS)}."
+        remedy = remedy_for(path, VECTORS)
         is_text = not isinstance(error, UnicodeDecodeError)
         fault = (
             f"is not JSON ({error})" if is_text else "is no text, and no file of lots that is read"

@@ -47,10 +47,14 @@ class Found:
     """What a reader finds in a file beside outlines; whole when it has given the last of them.
 
     epsg: code of the reference system, None where the file names none. others: how many of each
-    kind are no polygons. roads: the lines that are roads.
+    kind are no polygons. roads: the lines that are roads. is_settled: whether the call says the
+    reference system, so that it does not matter what the file names. has_roads: whether the call
+    names a file of roads, so that other layers need not be looked at for some.
     """
 
     epsg: int | None = None
+    is_settled: bool = False
+    has_roads: bool = False
     failures: Failures = field(default_factory=Failures)
     notes: list[str] = field(default_factory=list)
     others: Counter[str] = field(default_factory=Counter)

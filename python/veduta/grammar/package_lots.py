@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from veduta.grammar.line_layers import add_roads_beside, crs_of_layer
 from veduta.grammar.outline import Found, Outlines, name_of, outlines_of, plain_attributes
 from veduta.grammar.rings import RingFault, closed_ring
 from veduta.grammar.wkb import polygons_of_wkb
@@ -29,6 +30,9 @@ MAX_SECONDS = 300.0
 _STEPS = 100_000
 _ENVELOPES = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}
 _AREAS = ("POLYGON", "MULTIPOLYGON", "GEOMETRY", "GEOMETRYCOLLECTION", "SURFACE", "MULTISURFACE")
+
+
+_LINES = ("LINESTRING", "MULTILINESTRING", "CURVE", "MULTICURVE")
 
 
 @dataclass(frozen=True)
@@ -55,7 +59,10 @@ def package_outlines(path: Path, layer_name: str | None, found: Found) -> Outlin
     try:
         with contextlib.closing(_opened(path)) as base:
             layer = _layer(path, base, layer_name)
-            found.epsg = _epsg(path, base, layer.srs)
+            if not found.is_settled:
+                found.epsg = _epsg(path, base, layer.srs)
+            if not found.has_roads and _has_lines(base):
+                add_roads_beside(path, layer.table, crs_of_layer(path, layer.table), found)
             yield from _outlines(path, base, layer, found)
     except (sqlite3.Error, UnicodeError) as error:
         raise InputError(
@@ -105,6 +112,12 @@ def _layer(path: Path, base: sqlite3.Connection, wanted: str | None) -> _Layer:
     return found[0] if wanted is None else found[names.index(wanted)]
 
 
+def _has_lines(base: sqlite3.Connection) -> bool:
+    """Whether one of its layers is named as one of lines."""
+    kinds = base.execute("SELECT geometry_type_name FROM gpkg_geometry_columns")
+    return any(str(kind).upper() in _LINES for (kind,) in kinds)
+
+
 def _some(names: list[str]) -> str:
     return ", ".join(names[:12])
 
@@ -119,7 +132,7 @@ def _epsg(path: Path, base: sqlite3.Connection, srs: int) -> int | None:
     ).fetchone()
     if row is None or str(row[0]).upper() != "EPSG" or not isinstance(row[1], int):
         raise InputError(
-            path, f"has a reference system without EPSG code (srs_id {srs})", "Reproject it."
+            path, f"has a reference system without EPSG code (srs_id {srs})", "Give --crs."
         )
     return int(row[1])
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from veduta.geometry.crs import moved
 from veduta.grammar.frames import Frame
+from veduta.grammar.line_layers import road_lines
 from veduta.grammar.outline import Found, Road
 from veduta.grammar.rings import RingFault
 from veduta.grammar.roads import Roads
-from veduta.grammar.vector_lots import road_lines
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -23,7 +23,7 @@ DEGREES = 4326
 def roads_among(path: Path | None, found: Found, frame: Frame) -> Roads:
     """The roads about the origin of the lots (m); how many there are becomes a note.
 
-    path: a file of road lines beside those that were found with the lots.
+    path: a file of road lines, instead of those beside the lots where it is their own file.
     """
     roads = list(found.roads)
     if path is not None:
