@@ -36,7 +36,7 @@ LotsFile = Annotated[
         metavar="LOTS",
         help_behavior_hint="",
         help="the lots: GeoJSON, CityJSON, GeoPackage, Shapefile, FlatGeobuf, KML, OpenStreetMap"
-        " (XML, PBF) or OBJ; a synthetic street if not given",
+        " (XML, PBF), DXF, OBJ and others; a synthetic street if not given",
     ),
 ]
 OneLot = Annotated[

@@ -23,7 +23,7 @@ DEGREES = 4326
 def roads_among(path: Path | None, found: Found, frame: Frame) -> Roads:
     """The roads about the origin of the lots (m); how many there are becomes a note.
 
-    path: a file of road lines, instead of those beside the lots where it is their own file.
+    path: a file of road lines beside those that were found with the lots.
     """
     roads = list(found.roads)
     if path is not None:

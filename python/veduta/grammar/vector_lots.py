@@ -121,7 +121,7 @@ def _drawn(geometry: bytes | None) -> bytes | None:
     shape = shapely.from_wkb(geometry, on_invalid="ignore")
     if shape is None or shape.geom_type in ("Polygon", "MultiPolygon"):
         return geometry
-    if shape.geom_type != "LineString" or not shape.is_closed or len(shape.coords) < 4:
+    if not isinstance(shape, shapely.LineString) or not shape.is_closed or len(shape.coords) < 4:
         return None
     closed: bytes = shapely.to_wkb(shapely.Polygon(shape))
     return closed

@@ -48,7 +48,7 @@ def blob(kind: bytes, content: bytes) -> bytes:
 def pbf(
     nodes: Sequence[tuple[float, float]], ways: Sequence[tuple[list[int], dict[str, str]]]
 ) -> bytes:
-    """nodes: longitude and latitude (degrees), numbered from 1. ways: numbers of nodes, and tags."""
+    """nodes: longitude and latitude (degrees), numbered from 1. ways: their nodes, and tags."""
     words = [""]
     for _, tags in ways:
         words += [word for pair in tags.items() for word in pair]
