@@ -33,11 +33,12 @@ def derive(
     rules: a rule file, or the name of a style such as "haussmann". lots: GeoJSON, CityJSON,
     CityGML, GeoPackage, Shapefile, FlatGeobuf, KML, OpenStreetMap (XML, PBF), DXF, OBJ and others;
     a synthetic street where there are none. attributes: of the rules, for all lots. edits: a file
-    of edits of single shapes, one a line. project: the CityEngine project of the rule file, found by itself
-    where its folders lie as usual. libraries: folders beside it in which imports and assets are
-    looked for, too (`--library`). out: a folder for all that `veduta grammar derive -o OUT` writes;
-    without it nothing stays. options: as on the command line, `seed=7`. For one lot and its tree of
-    shapes: `veduta.grammar.derive`. InputError names the file or the lot that cannot be used.
+    of edits of single shapes, one a line. project: the CityEngine project of the rule file, found
+    by itself where its folders lie as usual. libraries: folders beside it in which imports and
+    assets are looked for, too (`--library`). out: a folder for all that `veduta grammar derive -o
+    OUT` writes; without it nothing stays. options: as on the command line, `seed=7`. For one lot
+    and its tree of shapes: `veduta.grammar.derive`. InputError names the file or the lot that
+    cannot be used.
     """
     asked: dict[str, Any] = {"separate": True} | options
     chosen = options_of(
