@@ -160,7 +160,7 @@ def test_the_search_finds_the_truth_from_another_start(haussmann: StyleGrammar) 
     # Rows and pairs of consoles look alike from the street: there the likelier one is found.
     looks = [painted(one.front, (250, 200), 0.1) for one in (found.best, truth)]
     assert set(found.best.state.choices) == set(truth.state.choices)
-    assert np.mean(looks[0] == looks[1]) > 0.97
+    assert np.mean(looks[0] == looks[1]) > 0.995
     assert all(0 < chain.accepted < chain.proposed for chain in found.chains)
     assert found.best.log_posterior == max(chain.best.log_posterior for chain in found.chains)
 
