@@ -186,7 +186,7 @@ def image_rows(judged: Sequence[Judged]) -> list[Row]:
 def report(name: str, what: str, judged: Sequence[Judged], bounds: Bounds, keep: bool) -> None:
     """Print and keep the three tables of a set."""
     notes = [
-        f"{len(judged)} images of {what}, read by default: with the learned eyes, without a template.",
+        f"{len(judged)} images of {what}, read by default: with the learned eyes, no template.",
         "A chimney counts as roof, on both sides; pixels that the truth leaves open are out.",
         f"{TEMPLATE}: the most frequent label at each place of ecp's train split. {BANDS}: each "
         f"row of the truth all of one class, the best of {', '.join(BAND_CLASSES)}; {ROWS}: the "

@@ -605,6 +605,7 @@ class GrammarRules:
         | None = None,
         labels: tuple[Sequence[str], Sequence[int], Sequence[str]] | None = None,
         in_plane: bool = False,
+        panel: bool = False,
         uv: _Array2[np.float32] | None = None,
     ) -> None:
         """Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
@@ -614,7 +615,8 @@ class GrammarRules:
         the shape is white, and the texture or None: its name, its size in metres (None where it lies
         by `uv`), and its mean colour (sRGB).
         `labels`: the name of each slot's material, the group of each face, and the names of the groups.
-        `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into.
+        `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into; `panel`:
+        whether it is thin there.
         `uv`: (c, 2) where each of `corners` lies on its slot's picture, from the lower left.
         """
     def add_textures(self, sizes_m: dict[str, tuple[float, float]]) -> None:

@@ -42,6 +42,12 @@ fn options() -> Options {
         let asset = Asset::new(name.into(), mesh, (LOW, LOW + SIZE)).unwrap();
         (asset.name.clone(), Arc::new(asset))
     };
+    let panel = |name: &str, mesh: Mesh| {
+        let (name, asset) = made(name, mesh);
+        let mut asset = Asset::clone(&asset);
+        asset.panel = true;
+        (name, Arc::new(asset))
+    };
     let in_plane = |name: &str, mesh: Mesh| {
         let (name, asset) = made(name, mesh);
         let mut asset = Asset::clone(&asset);
@@ -53,6 +59,7 @@ fn options() -> Options {
             made("box", mesh()),
             made("builtin/box", mesh()),
             in_plane("pane", mesh()),
+            panel("panel", mesh()),
             made("hand", hand()),
         ])),
         ..Options::default()
@@ -96,6 +103,11 @@ fn an_asset_keeps_its_proportion_where_the_scope_is_flat() {
     let own = scope("s(4, 3, 0) i(\"pane\")");
     assert_eq!(own, ([0.0, 0.0, -0.625], [4.0, 3.0, 1.25]));
     assert_eq!(scope("s(4, 3, 0) i(\"builtin/box\")"), flat);
+    // A panel has a hundredth of that, and fills what is not flat as others do.
+    let thin = scope("s(4, 3, 0) i(\"panel\")");
+    assert_eq!(thin, ([0.0; 3], [4.0, 3.0, 0.0125]));
+    assert_eq!(scope("s(4, 3, 2) i(\"panel\")").1, [4.0, 3.0, 2.0]);
+    assert_eq!(scope("s(0, 4, 0) i(\"panel\")").1, [8.0, 4.0, 2.0]);
     // By 4 along y alone.
     let line = scope("s(0, 4, 0) i(\"box\")");
     assert_eq!(line, ([-4.0, 0.0, -1.0], [8.0, 4.0, 2.0]));

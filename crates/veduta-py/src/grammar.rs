@@ -166,9 +166,10 @@ impl GrammarRules {
     /// the shape is white, and the texture or None: its name, its size in metres (None where it lies
     /// by `uv`), and its mean colour (sRGB).
     /// `labels`: the name of each slot's material, the group of each face, and the names of the groups.
-    /// `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into.
+    /// `in_plane`: whether z = 0 lies in the plane of a flat shape that it is put into; `panel`:
+    /// whether it is thin there.
     /// `uv`: (c, 2) where each of `corners` lies on its slot's picture, from the lower left.
-    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None, labels=None, in_plane=false, uv=None))]
+    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None, labels=None, in_plane=false, panel=false, uv=None))]
     #[allow(clippy::too_many_arguments)] // columns
     fn add_asset(
         &self,
@@ -181,6 +182,7 @@ impl GrammarRules {
         slots: Option<GivenSlots>,
         labels: Option<GivenLabels>,
         in_plane: bool,
+        panel: bool,
         uv: Option<PyReadonlyArray2<'_, f32>>,
     ) -> PyResult<()> {
         let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
@@ -196,6 +198,7 @@ impl GrammarRules {
             asset = asset.with_uv(own).ok_or_else(fault)?;
         }
         asset.in_plane = in_plane;
+        asset.panel = panel;
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
         Ok(())

@@ -20,6 +20,9 @@ pub struct Asset {
     /// Whether its plane z = 0 lies in the plane of what it is put into where that is flat, as that of
     /// a window lies in the wall; others begin there.
     pub in_plane: bool,
+    /// Whether it is a thin panel in a flat shape, as what stands for an asset that is not there: as
+    /// deep as wide it would bury the house.
+    pub panel: bool,
     face_slot: Vec<u32>,
     slots: Vec<Slot>,
     /// Where each corner lies on the picture of its slot, from the lower left, in the order of the
@@ -137,6 +140,7 @@ impl Asset {
             unit,
             solid,
             in_plane: false,
+            panel: false,
             face_slot,
             slots: vec![Slot {
                 colour: None,

@@ -53,7 +53,8 @@ class Asset:
     given_box_m: the box that fills a scope where it is not that around the points: all levels of
     detail have the finest one's, so that they stand in the same place. face_group: (f,) place in
     `groups`, the names that the asset's file has; empty where it has none. in_plane: whether its
-    plane z = 0 lies in that of a flat shape that it is put into, as a window's in a wall.
+    plane z = 0 lies in that of a flat shape that it is put into, as a window's in a wall. panel:
+    whether it is thin there.
     uv: (c, 2) float32, where each corner lies on the picture of its slot, from the lower left; None
     where no slot has one. notes: what of its file is not shown.
     """
@@ -68,6 +69,7 @@ class Asset:
     face_group: NDArray[np.int32] = field(default_factory=lambda: np.zeros(0, np.int32))
     groups: tuple[str, ...] = ()
     in_plane: bool = False
+    panel: bool = False
     uv: NDArray[np.float32] | None = None
     notes: tuple[str, ...] = ()
 
@@ -96,6 +98,7 @@ class Asset:
             slots=tuple(self.slots[number] for number in chosen),
             given_box_m=self.box_m,
             in_plane=self.in_plane,
+            panel=self.panel,
             uv=None if self.uv is None else self.uv[is_chosen],
             notes=self.notes,
         )

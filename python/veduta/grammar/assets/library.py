@@ -65,7 +65,10 @@ class Library:
             names = [slot.name for slot in asset.slots]
             labels = (names, asset.face_group.tolist(), list(asset.groups))
         looks = (asset.face_slot, slots, labels)
-        rules.add_asset(name, *faces, asset.box_m, *looks, in_plane=asset.in_plane, uv=asset.uv)
+        rules.add_asset(
+            name, *faces, asset.box_m, *looks,
+            in_plane=asset.in_plane, panel=asset.panel, uv=asset.uv,
+        )  # fmt: skip
 
     def add_written_to(self, rules: _core.GrammarRules) -> None:
         """Hand over the assets whose names stand in the rules.

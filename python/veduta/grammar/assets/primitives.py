@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,8 +27,10 @@ def primitive(name: str) -> Asset | None:
 
 
 def missing_box(name: str) -> Asset:
-    """The box that fills the scope of an asset that is not there, in a colour of its own."""
-    return _asset(name, *_cube(), MISSING)
+    """The box that fills the scope of an asset that is not there, in a colour of its own; a panel
+    where that is flat.
+    """
+    return replace(_asset(name, *_cube(), MISSING), panel=True)
 
 
 def _asset(name: str, points: NDArray[np.float64], faces: Faces, slot: Slot) -> Asset:

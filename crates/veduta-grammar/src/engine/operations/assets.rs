@@ -56,7 +56,7 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     let (by, size) = match mode.as_ref() {
         "keepSizeAndPosition" => (low, size),
         "keepSizeAlignPosition" => (DVec3::new(0.5, 0.0, 0.5) * (scope.size - size), size),
-        _ => fitted(scope.size, low, size, instance.asset.in_plane),
+        _ => fitted(scope.size, low, size, &instance.asset),
     };
     frame.state.form.scope = Scope {
         size,
@@ -80,9 +80,13 @@ pub fn asset(
     asset.ok_or_else(|| Fault::missing(op.span, name))
 }
 
+/// How deep a panel is, of the mean of its other sizes.
+const PANEL: f64 = 0.01;
+
 /// How far the scope moves, and its size, for an asset to fill it: where it has no size, the asset
-/// is as large as the mean stretch along the other axes makes it; `in_plane` where z = 0 is that of a wall.
-fn fitted(scope: DVec3, low: DVec3, size: DVec3, in_plane: bool) -> (DVec3, DVec3) {
+/// is as large as the mean stretch along the other axes makes it, a panel in a flat
+/// scope by a share of that.
+fn fitted(scope: DVec3, low: DVec3, size: DVec3, asset: &Asset) -> (DVec3, DVec3) {
     let axes = (0..3).filter(|&axis| scope[axis] > 0.0 && size[axis] > 0.0);
     let stretches: Vec<f64> = axes.map(|axis| scope[axis] / size[axis]).collect();
     let mean = match stretches.len() {
@@ -90,11 +94,13 @@ fn fitted(scope: DVec3, low: DVec3, size: DVec3, in_plane: bool) -> (DVec3, DVec
         count => stretches.iter().sum::<f64>() / count as f64,
     };
     let open = scope.cmpeq(DVec3::ZERO);
-    let begins = open.bitmask().count_ones() == 1 && !in_plane;
+    let flat = open.bitmask().count_ones() == 1;
+    let begins = flat && !asset.in_plane;
+    let thin = if flat && asset.panel { PANEL } else { 1.0 };
     let by = if begins { DVec3::ZERO } else { low * mean };
     (
         DVec3::select(open, by, DVec3::ZERO),
-        DVec3::select(open, size * mean, scope),
+        DVec3::select(open, size * mean * thin, scope),
     )
 }
 
