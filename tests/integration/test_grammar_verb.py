@@ -174,7 +174,7 @@ def bad_calls(folder: Path) -> dict[str, tuple[list[object], str]]:
         "fault": (["derive", folder / "bad.cga", "-o", folder / "out"], "did you mean `extrude`?"),
         "no lots": ([*derive, "--lots", folder / "none.geojson"], "Check its name."),
         "empty": ([*derive, "--lots", folder / "empty.geojson"], "Give it polygons."),
-        "rules as lots": ([*derive, "--lots", good], "Save it as GeoJSON or GeoPackage"),
+        "rules as lots": ([*derive, "--lots", good], "It has rules: name it before --lots"),
         "attribute": ([*derive, "--attr", "heigth=3"], "Did you mean `height`?"),
         "value": ([*derive, "--attr", "height=high"], "Give a number"),
         "start": ([*derive, "--start", "Lott"], "Did you mean `Lot`?"),

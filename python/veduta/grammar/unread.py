@@ -14,6 +14,7 @@ _REMEDIES = {
     ".xlsx": "Save it as CSV with a column of WKT.",
     ".skp": "Export it as COLLADA or OBJ from SketchUp.",
     ".ifc": "Export the outlines of its building as GeoJSON or DXF.",
+    ".cga": "It has rules: name it before --lots, and a file of lots after it.",
     ".shx": "Name the .shp beside it.",
     ".dbf": "Name the .shp beside it.",
     ".prj": "Name the .shp beside it.",
