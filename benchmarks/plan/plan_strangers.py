@@ -41,7 +41,9 @@ from veduta.synthetic.plans.strangers import strangers_sheet
 from veduta.synthetic.plans.truth_file import SheetTruth
 from veduta.synthetic.plans.working_drawing import working_drawing
 
-FAMILIES: Mapping[str, Callable[[int], tuple[Picture, list[SheetTruth]]]] = {
+Make = Callable[[int], tuple[Picture, list[SheetTruth]]]
+Families = Mapping[str, Make]
+FAMILIES: Families = {
     "plot": lambda seed: strangers_sheet(seed, "plot"),
     "storeys": lambda seed: strangers_sheet(seed, "storeys"),
     "brochure": brochure_page,
@@ -77,9 +79,9 @@ NOTES = (
 )
 
 
-def judged(seed: int, family: str) -> list[tuple[Score, bool]]:
+def judged(seed: int, make: Make) -> list[tuple[Score, bool]]:
     """The score of each storey on a sheet, and whether it says its scale."""
-    picture, truths = FAMILIES[family](seed)
+    picture, truths = make(seed)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "sheet.png"
         Image.fromarray(picture).save(path)
@@ -137,7 +139,7 @@ def main() -> None:
     for family in asked.families:
         scores: list[tuple[Score, bool]] = []
         for seed in asked.seeds:
-            found = judged(seed, family)
+            found = judged(seed, FAMILIES[family])
             scores += found
             if asked.each:
                 print(seed, row_of(family, found), flush=True)

@@ -11,6 +11,12 @@ from shapely.geometry import LineString, Point, Polygon
 from veduta.synthetic.plans import curves
 from veduta.synthetic.plans.brochure import brochure_page
 from veduta.synthetic.plans.canvas import Image
+from veduta.synthetic.plans.foreign.coloured import coloured_page
+from veduta.synthetic.plans.foreign.hairline import hairline_sheet
+from veduta.synthetic.plans.foreign.listing import listing_page
+from veduta.synthetic.plans.foreign.permit import permit_drawing
+from veduta.synthetic.plans.foreign.print_drawing import print_drawing
+from veduta.synthetic.plans.foreign.squared_paper import squared_sketch
 from veduta.synthetic.plans.hands import HANDS, hand_drawn
 from veduta.synthetic.plans.japanese import japanese_flat
 from veduta.synthetic.plans.labelled import labelled_sheet
@@ -33,7 +39,10 @@ def any_floor(seed: int) -> tuple[Image, list[SheetTruth]]:
     return stock_plan(seed, ("ranch", "gallery")[seed % 2])
 
 
-DRAWN = [*MAKERS, any_hand, any_floor, japanese_flat, labelled_sheet]
+FOREIGN = (
+    hairline_sheet, coloured_page, print_drawing, permit_drawing, listing_page, squared_sketch,
+)  # fmt: skip
+DRAWN = [*MAKERS, any_hand, any_floor, japanese_flat, labelled_sheet, *FOREIGN]
 
 
 @pytest.mark.parametrize("make", DRAWN)
@@ -95,7 +104,7 @@ def _mean(grey: np.ndarray, truth: SheetTruth, at: Point, reach_m: float) -> flo
     return float(box.mean())
 
 
-@pytest.mark.parametrize("make", MAKERS)
+@pytest.mark.parametrize("make", [*MAKERS, *FOREIGN])
 def test_a_seed_gives_the_same_sheet_again_and_another_seed_another(make: Make) -> None:
     first, again, other = make(5)[0], make(5)[0], make(6)[0]
     assert np.array_equal(first, again)
@@ -113,6 +122,25 @@ def test_hands_draw_walls_darker_than_rooms(hand: str) -> None:
     solid = [_mean(grey, truth, line.interpolate(0.5, normalized=True), reach) for line in lines]
     rooms = [Polygon(one.outline_m).representative_point() for one in storey.rooms]
     assert np.median(solid) < np.median([_mean(grey, truth, at, 0.05) for at in rooms]) - 40.0
+
+
+@pytest.mark.parametrize("make", FOREIGN)
+def test_faces_of_walls_are_seen_where_the_truth_says(make: Make) -> None:
+    picture, (truth,) = make(4)
+    grey = picture.astype(float)
+    storey, pairs = truth.storey, []
+    gaps = {one.wall for one in storey.openings}
+    for wall in storey.walls:
+        if wall.id in gaps or wall.bulge or curves.wall_length(wall) < 1.0:
+            continue
+        half = wall.thickness_m / 2.0
+        for share in (0.3, 0.5, 0.7):
+            near = [curves.at(wall.start_m, wall.end_m, 0.0, np.array([share]), off)[0]
+                    for off in np.linspace(-half - 0.06, half + 0.06, 15)]  # fmt: skip
+            pixels = [truth.px_from_m[:2] @ (x, y, 1.0) for x, y in near]
+            values = np.array([grey[int(y), int(x)] for x, y in pixels])
+            pairs.append(np.ptp(values, axis=0).max())
+    assert np.median(pairs) > 40.0
 
 
 @pytest.mark.parametrize("seed", [2, 4])

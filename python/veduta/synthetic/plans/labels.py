@@ -103,14 +103,16 @@ def _fit(
         sides = (wide * canvas.metres_per_px, high * canvas.metres_per_px)
         for free in (area.difference(busy), area):
             for upright in (True, False):
-                spot = _spot(free, *(sides if upright else sides[::-1]))
+                spot = spot_within(free, *(sides if upright else sides[::-1]))
                 if spot is not None:
                     middle = ((spot[0] + spot[2]) / 2, (spot[1] + spot[3]) / 2)
                     return Label(room.id, text, printed, middle, spot, upright)
     return None
 
 
-def _spot(area: BaseGeometry, wide: float, high: float) -> tuple[float, float, float, float] | None:
+def spot_within(
+    area: BaseGeometry, wide: float, high: float
+) -> tuple[float, float, float, float] | None:
     """A box of this size within the area, as near to its middle as can be."""
     if area.is_empty:
         return None

@@ -1,0 +1,1 @@
+"""Six more ways in which strangers draw: hair lines, colours, prints, permits, pages, squares."""
