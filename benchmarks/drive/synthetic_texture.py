@@ -32,6 +32,7 @@ from veduta.drive.build.beside import column_spacing, points_beside
 from veduta.drive.build.near_images import NearImages
 from veduta.drive.build.pictures_of import Around, Seen
 from veduta.drive.build.segment import Geometry, Textured, frame_of, reconstruct, texture
+from veduta.drive.build.solid import solid_below
 from veduta.drive.build.texture_fill import fill_texture
 from veduta.drive.options import DriveOptions, TextureOptions
 from veduta.drive.read.own import read_own
@@ -98,7 +99,8 @@ def made(folder: Path) -> list[tuple[Geometry, Textured, list[Seen]]]:
     def around(one: Geometry) -> Around:
         high = options.texture.wall_top_m
         backdrop = backdrop_of(one.background, one.frame, high)
-        return Around(one.foreground(), one.crowns(options.seed), (backdrop,))
+        crowns, solid = one.crowns(options.seed), solid_below(one.layers)
+        return Around(one.foreground(), crowns, (backdrop,), solid)
 
     images = NearImages(drive.shots, [(one.segment, partial(around, one)) for one in found])
     result = []

@@ -44,7 +44,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "14"
+VERSION = "15"
 POINTS, MANIFEST = "points.laz", "place.json"
 _JPEG_QUALITY = 90
 

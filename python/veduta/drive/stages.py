@@ -28,6 +28,7 @@ from veduta.drive.build.pictures import (
 )
 from veduta.drive.build.pictures_of import Around, Seen
 from veduta.drive.build.segment import Geometry, Textured, frame_of, reconstruct, texture
+from veduta.drive.build.solid import solid_below
 from veduta.drive.document.model import DriveSegment
 from veduta.drive.kept import load_result, save_result
 from veduta.drive.options import DriveOptions
@@ -144,7 +145,8 @@ def _kept_geometry(
 def _around(geometry: Geometry, options: DriveOptions) -> Around:
     """What stands before a segment's facades, and the facades as the images should show them."""
     backdrop = backdrop_of(geometry.background, geometry.frame, options.texture.wall_top_m)
-    return Around(geometry.foreground(), geometry.crowns(options.seed), (backdrop,))
+    crowns, solid = geometry.crowns(options.seed), solid_below(geometry.layers)
+    return Around(geometry.foreground(), crowns, (backdrop,), solid)
 
 
 def texture_segments(

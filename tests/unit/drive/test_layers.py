@@ -10,6 +10,7 @@ from veduta.drive.build.fill import Source, fill_background
 from veduta.drive.build.frame import ColumnFrame, column_frame, sort_into_columns
 from veduta.drive.build.layers import Layers, PointClass, split_layers
 from veduta.drive.build.objects import find_objects
+from veduta.drive.build.solid import solid_below
 from veduta.drive.build.surface import build_surface
 
 FARTHEST_M = 20.0
@@ -54,6 +55,19 @@ def test_points_are_of_their_layer(layers: Layers) -> None:
 def test_car_and_pole_are_two_objects(layers: Layers) -> None:
     _, count = find_objects(layers.foreground)
     assert count == 2
+
+
+def test_below_a_car_it_is_solid_down_to_the_road(layers: Layers) -> None:
+    below = solid_below(layers)
+    x, y, z = below.T
+    car = (np.abs(x + 4.0) < 0.1) & (y > 7.9) & (y < 11.1)
+    pole = (np.abs(x + 6.0) < 0.1) & (y > 14.9) & (y < 15.3)
+    assert (car | pole).all()
+    assert z.min() > -0.15
+    assert z[car].max() < 1.4
+    heights, _ = np.histogram(z[car], np.arange(0.0, 1.3, 0.2))
+    assert heights.min() > 0.5 * heights.max()
+    assert len(np.unique(np.floor(y[car] / 0.1))) > 28
 
 
 def test_filled_background_lies_in_the_true_planes(layers: Layers, frame: ColumnFrame) -> None:

@@ -87,17 +87,19 @@ class NearImages:
     def _surroundings(self, row: int) -> Around:
         """Of all segments that an image can show."""
         eye, reach = self._places[row], 2 * self._chosen.near_m
-        foreground, crowns = [np.zeros((0, 3))], [np.zeros((0, 3))]
+        foreground, crowns, solid = ([np.zeros((0, 3))] for _ in range(3))
         backdrops: list[Backdrop] = []
         for number, line in enumerate(self._lines):
             if np.linalg.norm(line - eye[:2], axis=1).min() > reach:
                 continue
             load = self._segments[number][1]
             own = _held(self._around, number, load, self._chosen.held_segments)
-            for kept, points in ((foreground, own.foreground), (crowns, own.crowns)):
+            parts = ((foreground, own.foreground), (crowns, own.crowns), (solid, own.solid))
+            for kept, points in parts:
                 kept.append(points[np.linalg.norm(points[:, :2] - eye[:2], axis=1) < reach])
             backdrops += own.backdrops
-        return Around(np.concatenate(foreground), np.concatenate(crowns), tuple(backdrops))
+        joined = [np.concatenate(one) for one in (foreground, crowns, solid)]
+        return Around(joined[0], joined[1], tuple(backdrops), joined[2])
 
 
 def _held(held: OrderedDict[int, T], key: int, made: Callable[[], T], most: int) -> T:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import cv2
 import numpy as np
@@ -27,6 +27,11 @@ class MaskParameters:
     """
 
     point_m: float = 0.10
+    solid_m: float = 0.2
+    solid_px: int = 24
+    """The same of what is below the points that stand on the ground: its far side has none,"""
+    solid_nearer_m: float = 0.3
+    """and it hides what is that close behind its foot, too."""
     closed_px: int = 9
     most_px: int = 12
     nearest_m: float = 1.5
@@ -39,6 +44,9 @@ class MaskParameters:
     """and this share of R + G + B; less green is leaves only where it does not fit the background,"""
     leaf_fits_px: float = 1.5
     """which what fits better than this does: plaster may be greenish, too."""
+    leaf_rough: float = 12.0
+    """Much green that fits, too, is paint where its light varies by less (standard deviation, of
+    255) in that square."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,12 +69,14 @@ class Seen:
 @dataclass(frozen=True, eq=False)
 class Around:
     """What is near an image. foreground: (n, 3) scan points (m, world). crowns: (k, 3) where trees
-    may go on above what the scanner saw. backdrops: the surfaces behind, without holes.
+    may go on above what the scanner saw. backdrops: the surfaces behind, without holes. solid:
+    (s, 3) what is below the foreground, down to the ground.
     """
 
     foreground: NDArray[np.float64]
     crowns: NDArray[np.float64]
     backdrops: tuple[Backdrop, ...] = ()
+    solid: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 def read_shot(shot: Shot) -> Frame:
@@ -89,7 +99,9 @@ def look(
     """
     chosen = parameters or MaskParameters()
     sky = _sky(one.pixels, chosen)
-    hidden = _hidden(one.shot, around.foreground, chosen)
+    wide = replace(chosen, point_m=chosen.solid_m, most_px=chosen.solid_px)
+    below = _hidden(one.shot, around.solid, wide) - chosen.solid_nearer_m
+    hidden = np.minimum(_hidden(one.shot, around.foreground, chosen), below)
     crowns = _hidden(one.shot, around.crowns, chosen)
     drawn = draw_backdrops(one.shot, around.backdrops)
     misfit = correspondence_error(one, drawn.depth, beside)
@@ -143,7 +155,9 @@ def _leaves(
     misfit: NDArray[np.float32],
     chosen: MaskParameters,
 ) -> NDArray[np.bool_]:
-    """Plants by their colour, or by less of it where they do not fit the background."""
+    """Plants by their colour, or by less of it where they do not fit the background. Painted shop
+    fronts and doors may be as green as leaves: they fit, and are plain.
+    """
     red, green, blue = (pixels[..., axis].astype(np.int16) for axis in range(3))
     excess = 2 * green - red - blue
     greenish = excess >= chosen.leaf_green
@@ -152,4 +166,7 @@ def _leaves(
     most, sure = (cv2.blur(one.astype(np.float32), size) > 0.5 for one in (greenish, strong))
     with np.errstate(invalid="ignore"):
         fits = misfit < chosen.leaf_fits_px
-    return np.asarray((sure | (most & ~fits)) & ~sky, dtype=bool)
+    light = pixels.astype(np.float32).mean(axis=2)
+    spread = cv2.blur(light * light, size) - cv2.blur(light, size) ** 2
+    paint = fits & (spread < chosen.leaf_rough**2)
+    return np.asarray(((sure & ~paint) | (most & ~fits)) & ~sky, dtype=bool)
