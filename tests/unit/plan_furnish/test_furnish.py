@@ -89,9 +89,24 @@ def test_one_model_of_a_type_in_the_house_unless_asked() -> None:
         }
 
     plain = furnished(house)
-    for kind in ("bed-double", "nightstand", "picture", "chair"):
+    for kind in ("bed-double", "nightstand", "chair"):
         assert len(models(plain, kind)) <= 1
-    assert len(models(furnished(house, varied=True), "picture")) > 1
+    assert len(models(furnished(house, varied=True), "nightstand")) > 1
+
+
+@pytest.mark.parametrize("seed", [3, 32, 36])
+def test_no_room_has_one_picture_twice_and_rooms_differ(seed: int) -> None:
+    entries = builtin_catalogue().entries
+    document = furnished(document_of(make_house(seed)), seed)
+    hung = [
+        (storey.name, one.room, one.object)
+        for storey in document.storeys
+        for one in storey.furniture or ()
+        if entries[one.object].type == "picture"
+    ]
+    assert len(hung) >= 2
+    assert len(set(hung)) == len(hung)
+    assert len({motif for _, _, motif in hung}) >= min(len(hung), 4)
 
 
 def test_a_storey_that_has_furniture_stays_as_it_is() -> None:

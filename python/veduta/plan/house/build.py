@@ -8,6 +8,7 @@ from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.furnish.catalogue.read import catalogue_of
+from veduta.plan.house.contact_shadows import add_contact_shadows
 from veduta.plan.house.doors import add_door
 from veduta.plan.house.flights import Stairwell, storey_spaces
 from veduta.plan.house.floors import (
@@ -69,6 +70,7 @@ def build_house(
         above = spaces[index + 1] if index + 1 < len(spaces) else None
         _add_storey(space, above, well, sculptor, options)
         furnishing.add(space.storey)
+        add_contact_shadows(space, furnishing.catalogue, sculptor)
         builder.notes.extend([*space.notes, *well.notes])
     first, last = spaces[0], spaces[-1]
     base = first.storey.elevation_m
