@@ -136,7 +136,7 @@ class HouseOptions(Options):
     )
     varied_furniture: bool = Field(
         default=False,
-        description="choose among all objects each time; else one model of a type, but for pictures",
+        description="choose among all objects each time; else one model of a type but for pictures",
     )
     furniture_detail: Literal["fine", "coarse"] = Field(
         default="fine", description="how finely furniture is modelled; coarse: seen from afar"
