@@ -37,11 +37,14 @@ HERE = Path(__file__).parent
 DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
 HELD_FROM = 241
 RENDERED = {
-    "modern-slab": ("none", range(6)),
-    "haussmann": ("roof", range(3)),
-    "restauration": ("roof", range(3)),
+    "modern-slab": ("none", (*range(6), *range(40, 52))),
+    "haussmann": ("roof", (*range(3), *range(40, 44))),
+    "restauration": ("roof", (*range(3), *range(40, 44))),
+    "empire": ("roof", range(40, 44)),
+    "victorian": ("roof", range(40, 44)),
 }
-"""Styles with what ends their fronts, and seeds."""
+"""Styles with what ends their fronts, and seeds: those from 40 on nothing was looked at on."""
+UNSEEN_FROM = 40
 TOLD = {"flat": "none", "mansard": "roof", "hip": "gable", "gable": "gable"}
 """What a document says; the end of a hipped roof has a gable's outline."""
 GLASS = {"curtain": range(10, 16), "bands": range(10, 14), "loggias": range(10, 13)}
@@ -72,8 +75,8 @@ LEGEND = (
     "Roofs: of fronts that end in nothing but a cornice or parapet (none), in a slope (roof) or a"
     " gable or hip, how many are told as each. Arches: of openings that were read where all are"
     " arched, and where all are level, how many are told as arched. No picture was tuned on but"
-    " b0280, which the step for glass was looked at on, and modern-slab 3 and 5, which were told as"
-    " gables before blocks on flat roofs were parted from these."
+    " b0280, which the step for glass was looked at on, and modern-slab 0 to 5, which were told as"
+    " gables or mansards before blocks and parapets on flat roofs were parted from these."
 )
 
 
@@ -135,12 +138,12 @@ def _found(document: FacadeDocument | None) -> Found:
 
 
 def _roofs(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[Row]:
-    for title, is_render in (("CMP", False), ("renders", True)):
+    for title in ("CMP", "renders", "renders, unseen"):
         for true in KINDS:
             some = [
                 found[name]
                 for name in found
-                if marks[name]["roof"] == true and (" " in name) == is_render
+                if marks[name]["roof"] == true and _set_of(name) == title
             ]
             if not some:
                 continue
@@ -150,6 +153,12 @@ def _roofs(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[Row]:
                 "what": f"roofs, {title}: {true}", "number": len(some), **columns,
                 "right": round(told[true] / len(some), 2),
             }  # fmt: skip
+
+
+def _set_of(name: str) -> str:
+    if " " not in name:
+        return "CMP"
+    return "renders, unseen" if int(name.split(" ")[1]) >= UNSEEN_FROM else "renders"
 
 
 def _arches(marks: dict[str, Found], found: dict[str, Found]) -> Iterator[Row]:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
+from veduta.facade.above_eaves import Surfaces
 from veduta.facade.boxes import Box
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, Source
@@ -71,6 +74,12 @@ class _Front:
     def hidden(self) -> Float:
         """(h, w) the chance that something stands before the front, at the same size."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), *BEFORE)
+
+    def surfaces(self, left: int, right: int, bottom: int) -> Surfaces:
+        """Wall, roof and windows between two columns, down to a row of the evidence."""
+        size, inside = (self.evidence.width, self.evidence.height), np.s_[:bottom, left:right]
+        roof, window = (self.seen.chance_at(size, kind)[inside] for kind in ("roof", "window"))
+        return Surfaces(self.wall[inside], roof, window)
 
     def is_pane(self, box: Box, left: int) -> bool:
         """Whether a box that counts from a column is a pane of glass, which has no arched head."""
@@ -253,8 +262,8 @@ def _read(
         if not elements:
             reason = "between the left and the right end of the building is no window or door"
             raise NotFoundError("a facade", reason, REMEDY)
-        wall = front.wall[: inner.height, sides.left : sides.right]
-        storeys = storeys_of(inner, skyline, elements, wall, options)
+        surfaces = front.surfaces(sides.left, sides.right, inner.height)
+        storeys = storeys_of(inner, skyline, elements, surfaces, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
         step.rejected.extend(
             f"{one.kind}: between even storeys, or in a strip: a relief or a sign"

@@ -39,8 +39,10 @@ class FrontParameters:
     have 0.5 and more; these three and a skyline 0.09 to 0.23).
     `front`: the least share of the picture that is front. `lost`: the share of the windows from
     which on sides that cut them off are not believed. `street`: the share of what is not hidden
-    that is ground, from which a row is the street's. `hides`: the share of the front from which on
-    it is told what stands before it.
+    that is ground, from which a row is the street's. `deep`: the least share of the picture's rows
+    of a street that does not reach its lower border; `lids`, `lids_share`: so many of the openings
+    at most, and as a share, lie below where it begins. `hides`: the share of the front from which
+    on it is told what stands before it.
     """
 
     openings: int = 2
@@ -49,6 +51,9 @@ class FrontParameters:
     front: float = 0.2
     lost: float = 0.12
     street: float = 0.5
+    deep: float = 0.04
+    lids: int = 1
+    lids_share: float = 0.2
     hides: float = 0.02
 
 
@@ -102,8 +107,10 @@ def sides_of(
     hidden = seen.chance_at(size, *BEFORE)[:, sides.left : sides.right]
     ground = seen.chance_at(size, "ground")[:, sides.left : sides.right]
     street = ground.mean(1) > parameters.street * np.maximum(1.0 - hidden.mean(1), 0.2)
-    bottom = _first_of_last_run(street)
-    lowest = max((e.y1 for e in elements if e.kind != "balcony"), default=0.0)
+    openings = [e for e in elements if e.kind != "balcony"]
+    bottom = _street_begins(street, openings, parameters)
+    # A lid or a grating in the street is no window of the front.
+    lowest = max((e.y1 for e in openings if e.y0 < bottom), default=0.0)
     if bottom < evidence.height and bottom >= lowest - 0.02 * evidence.height:
         share = 100 * bottom / evidence.height
         reason = f"ground: the street begins {share:.0f} % down the picture, and was not read"
@@ -114,10 +121,24 @@ def sides_of(
     return sides
 
 
-def _first_of_last_run(rows: NDArray[np.bool_]) -> int:
-    """Where the run of rows that reaches the lower border begins."""
-    others = np.flatnonzero(~rows)
-    return int(others[-1]) + 1 if len(others) else len(rows)
+def _street_begins(
+    street: NDArray[np.bool_], openings: Sequence[SeenElement], parameters: FrontParameters
+) -> int:
+    """The row at which the street begins; the number of rows where none is seen.
+
+    It is where the run of its rows begins that reaches the lower border; or an earlier one that is
+    deep and has hardly an opening below it: the eyes often take the pavement's far part for ground
+    and the rest of it for a wall.
+    """
+    borders = np.flatnonzero(np.diff(np.concatenate([[False], street, [False]])))
+    for first, end in borders.reshape(-1, 2).tolist():
+        below = sum(e.y0 >= first for e in openings)
+        cut = sum(e.y0 < first and e.y1 > end for e in openings)
+        few = below <= min(parameters.lids, parameters.lids_share * len(openings))
+        is_deep = end - first >= parameters.deep * len(street)
+        if end == len(street) or (is_deep and few and not cut):
+            return int(first)
+    return len(street)
 
 
 def hidden_notes(seen: Seen, parameters: FrontParameters) -> list[str]:

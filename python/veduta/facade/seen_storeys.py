@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from veduta.facade.above_eaves import Surfaces, is_wall_above
 from veduta.facade.document import RoofKind
 from veduta.facade.evidence import Evidence, Float
 from veduta.facade.extent import Skyline, row_histograms
@@ -42,23 +43,23 @@ _FOOT = "storeys: what lies below the lowest of them is as high as several"
 class StoreyParameters:
     """When what lies above the eaves is a storey, and when an outline is the building's.
 
-    `no_roof`: the chance of wall above the eaves from which on there is no roof but more of the
-    wall. Of a hundred pictures of two sets (40 of ECP train, 60 of CMP) it decides in eight: three
-    with a roof have 0.76, 0.76 and 0.81, five without 0.75 to 0.87.
     `as_many`, `as_large`: where no sky is seen, the share of the fullest row's windows, and of the
     usual area, from which on a row above the eaves is a storey.
     `level`: from which row, as a share of the picture's height, a column of the photo begins below
     its upper edge. `unknown`: the share of such columns, which end at the outline, from which on it
     is that of a rectified photo and tells of no gable.
+    `dormers`: from so many windows above the eaves on they are those of a roof, unless there are
+    as many as in the fullest row and this share of the usual area (`usual`) large.
     `windows`: window heights in a storey, where no second row tells how high one is.
-    All but the first are set by hand: what they were tried on is not kept.
+    All are set by hand: what they were tried on is not kept.
     """
 
-    no_roof: float = 0.82
     as_many: float = 0.6
     as_large: float = 0.5
     level: float = 0.02
     unknown: float = 0.15
+    dormers: int = 2
+    usual: float = 0.8
     windows: float = 2.0
 
 
@@ -83,15 +84,12 @@ def storeys_of(
     evidence: Evidence,
     skyline: Skyline,
     elements: list[SeenElement],
-    wall: Float,
+    surfaces: Surfaces,
     options: FacadeOptions,
 ) -> Storeys:
-    """The storeys of what is between the sides of a front: all are of that part, in its pixels.
-
-    wall: (h, w) the chance of wall.
-    """
-    under = _under_gable(evidence, skyline, elements, wall)
-    found = under or _storeys(evidence, skyline, elements, wall, options)
+    """The storeys of what is between the sides of a front: all are of that part, in its pixels."""
+    under = _under_gable(evidence, skyline, elements, surfaces.wall)
+    found = under or _storeys(evidence, skyline, elements, surfaces, options)
     if is_too_deep(found.floors, evidence.height):
         rows, _ = _rows_of([e for e in elements if e.kind == "window"], RowParameters())
         return Storeys(_plane(rows, skyline, elements), [_PLANE, _FOOT])
@@ -103,12 +101,12 @@ def _storeys(
     evidence: Evidence,
     skyline: Skyline,
     elements: list[SeenElement],
-    wall: Float,
+    surfaces: Surfaces,
     options: FacadeOptions,
 ) -> Storeys:
     """Floors by what is alike, where the rows of windows agree; else by these; else none.
 
-    `wall` (h, w) is the chance of wall: what lies above the eaves and is wall is no roof.
+    What lies above the eaves and is wall is no roof.
     """
     parameters = RowParameters()
     windows = [e for e in elements if e.kind == "window"]
@@ -116,9 +114,21 @@ def _storeys(
     plain = _plain_floors(evidence, skyline, options)
     top, bottom = float(skyline.level), evidence.height
     eaves = float(plain.eaves) if plain is not None else None
+
+    def is_wall(found: Floors) -> bool:
+        """Whether there is wall above the eaves."""
+        eaves, storey = found.eaves, found.mean_storey
+        above = sum(0.5 * (e.y0 + e.y1) < eaves for e in windows)
+        dormers = above >= _STOREYS.dormers and not _is_storey_above(
+            windows, rows, eaves, _STOREYS.usual
+        )
+        return is_wall_above(evidence, skyline, eaves, storey, surfaces, dormers=dormers)
+
     if plain is not None and (
-        float(wall[skyline.level : plain.eaves].mean()) > _STOREYS.no_roof
-        or (bool(skyline.reason) and _is_storey_above(windows, rows, plain.eaves))
+        is_wall(plain)
+        or (
+            bool(skyline.reason) and _is_storey_above(windows, rows, plain.eaves, _STOREYS.as_large)
+        )
     ):
         eaves = top
         plain = without_roof(plain, skyline.level, rows)
@@ -132,6 +142,8 @@ def _storeys(
         return Storeys(with_set_back(plain, rows, balconies, evidence.width), [], none=none)
     floors = floors_of_rows(rows, eaves, top, bottom, parameters, has_cellar=has_cellar)
     if floors is not None and is_even(rows, eaves, parameters):
+        if is_wall(floors):
+            floors = without_roof(floors, skyline.level, rows) or floors
         return Storeys(with_set_back(floors, rows, balconies, evidence.width), [], none=none)
     reason = _UNEVEN if len(rows) > 1 else _ONE_ROW
     return Storeys(_plane(rows, skyline, elements), [_PLANE, reason])
@@ -148,9 +160,12 @@ def _rows_of(
 
 
 def _is_storey_above(
-    windows: Sequence[SeenElement], rows: Sequence[WindowRow], eaves: float
+    windows: Sequence[SeenElement], rows: Sequence[WindowRow], eaves: float, large: float
 ) -> bool:
-    """Whether a row above the eaves has as many and as large windows as those below: no dormers."""
+    """Whether a row above the eaves has as many and as large windows as those below: no dormers.
+
+    large: the least share of the usual area.
+    """
     above = [r for r in rows if 0.5 * (r.top + r.bottom) < eaves]
     below = [r for r in rows if r not in above]
     if not above or not below:
@@ -159,8 +174,7 @@ def _is_storey_above(
     usual = np.median([windows[i].width * windows[i].height for r in below for i in r.members])
     return any(
         len(r.members) >= _STOREYS.as_many * most
-        and np.median([windows[i].width * windows[i].height for i in r.members])
-        >= _STOREYS.as_large * usual
+        and np.median([windows[i].width * windows[i].height for i in r.members]) >= large * usual
         for r in above
     )
 

@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from veduta.facade.above_eaves import Surfaces, is_wall_above
 from veduta.facade.evidence import gather
 from veduta.facade.extent import Skyline, find_skyline
 from veduta.facade.eyes import Seen, SeenElement
 from veduta.facade.options import FacadeOptions
 from veduta.facade.seen_boxes import on_their_floors, with_panes_of_shops
-from veduta.facade.seen_front import FrontParameters, require_front
+from veduta.facade.seen_front import BEFORE, FrontParameters, require_front, sides_of
 from veduta.facade.seen_storeys import storeys_of
+from veduta.facade.sides import whole
 from veduta.run.errors import NotFoundError
 
 FLOORS = [20, 60, 100]
@@ -78,7 +80,8 @@ def test_no_gable_has_windows_beside_its_slopes(beside: bool) -> None:
     evidence = gather(np.full((320, 200, 3), 180, np.uint8), np.ones((320, 200), np.bool_))
     wall = np.ones((evidence.height, evidence.width), np.float32)
     assert (evidence.height, evidence.width) == (320, 200)
-    found = storeys_of(evidence, skyline, elements, wall, FacadeOptions())
+    surfaces = Surfaces(wall, 0 * wall, 0 * wall)
+    found = storeys_of(evidence, skyline, elements, surfaces, FacadeOptions())
     assert (found.gable is None) == beside
 
 
@@ -87,7 +90,8 @@ def test_a_corner_of_no_photo_is_no_slope_of_a_gable() -> None:
     inside = np.arange(320)[:, None] >= skyline.rows[None] - 1
     evidence = gather(np.full((320, 200, 3), 180, np.uint8), inside)
     wall = np.ones((evidence.height, evidence.width), np.float32)
-    assert storeys_of(evidence, skyline, elements, wall, FacadeOptions()).gable is None
+    surfaces = Surfaces(wall, 0 * wall, 0 * wall)
+    assert storeys_of(evidence, skyline, elements, surfaces, FacadeOptions()).gable is None
 
 
 def test_the_eyes_tell_a_white_wall_from_a_white_sky() -> None:
@@ -112,3 +116,45 @@ def test_windows_beside_a_shop_that_look_like_one_are_panes_of_shops() -> None:
     kinds = [e.kind for e in with_panes_of_shops(some, FLOORS, chance)]
     assert kinds == ["shop", "window", "shop", "window", "window"]
     assert with_panes_of_shops(some[1:], FLOORS, chance) == some[1:]
+
+
+@pytest.mark.parametrize(
+    ("above", "goes_on"),
+    [
+        ((150, 148, 144), True),
+        ((196, 194, 190), True),
+        ((60, 64, 72), False),
+        ((210, 120, 80), False),
+    ],
+    ids=["the wall's colour", "as light as another part of it", "slate", "tiles in the sun"],
+)
+def test_a_parapet_of_the_walls_colour_is_no_roof(above: tuple[int, ...], goes_on: bool) -> None:
+    """The wall is of two colours, a third of it as light as a parapet in the sun."""
+    pixels = np.full((300, 200, 3), 230, np.uint8)
+    pixels[40:70] = above
+    pixels[70:], pixels[70:, :60] = (150, 148, 144), (196, 194, 190)
+    evidence = gather(pixels, np.ones((300, 200), np.bool_))
+    rows = evidence.height / 300
+    skyline = Skyline(np.full(evidence.width, round(40 * rows)), round(40 * rows))
+    none = np.zeros((evidence.height, evidence.width), np.float32)
+    wall = none.copy()
+    wall[round(70 * rows) :] = 0.9
+    surfaces = Surfaces(wall, none, none)
+    assert is_wall_above(evidence, skyline, 70 * rows, 60 * rows, surfaces) == goes_on
+    # What is high and looks like a roof is one, whatever its colour.
+    roof = Surfaces(wall, 1.0 - wall, none)
+    assert not is_wall_above(evidence, skyline, 70 * rows, 40 * rows, roof)
+
+
+def test_a_lid_in_the_street_is_no_window_of_the_front() -> None:
+    evidence = gather(np.full((320, 200, 3), 180, np.uint8), np.ones((320, 200), np.bool_))
+    names = ("wall", "ground", *BEFORE)
+    seen = np.zeros((len(names), 40, 25), np.float32)
+    seen[0, :30], seen[1, 30:] = 0.9, 0.9
+    none = np.zeros((1, 8, 8), np.float32)
+    eyes = Seen(names, ("window",), seen, none, none, 1.0, 1.0, 200, 320)
+    windows = [SeenElement("window", 20.0, y, 60.0, y + 50.0, 0.9) for y in (40.0, 130.0)]
+    lid = SeenElement("window", 90.0, 285.0, 110.0, 300.0, 0.9)
+    for some in (windows, [*windows, lid]):
+        sides = sides_of(whole(evidence), evidence, eyes, some, FrontParameters())
+        assert sides.bottom == pytest.approx(240, abs=8)
