@@ -27,8 +27,11 @@ from veduta.formats.gltf import glb_bytes
 from veduta.plan.document import Furniture, PlanDocument, Storey
 from veduta.plan.house.build import House, build_house
 from veduta.plan.options import HouseOptions
+from veduta.plan.tour.clear_view import before_eyes
 from veduta.plan.tour.find import EYE_M, Tour, find_tour
+from veduta.plan.tour.leaves import leaves_as_toured
 from veduta.plan.tour.stops import is_cupboard
+from veduta.plan.tour.stretches import OUTSIDE
 from veduta.synthetic.plans.layout import make_house
 from veduta.synthetic.seeds import stream
 
@@ -40,9 +43,15 @@ EVERY_M = 0.05
 REACH_M = 1.0
 """What is further away than this is not in the way."""
 SPEED_M_S = 1.2
+NEAR_M = 1.0
+"""One shall look at no wall that is nearer."""
+FAR_M = 5.0
+LOOK_S = 0.2
 NOTES = (
     "Asked for: all rooms, never through a wall or an object, no more than 60 degrees per second at"
-    " 1.2 m/s.",
+    " 1.2 m/s, no look at a wall nearer than a metre, a fifth outdoors at most.",
+    "Looks: how often (every 0.2 s) a wall, an open leaf or tall furniture is nearer than that in"
+    " the middle of the gaze; the mean over houses, and that of the worst house.",
     "Clearance: from the middle of the visitor to the nearest surface of house.glb (doors open), or"
     " to the nearest piece of furniture; the visitor is planned with a radius of 0.2 m, or 0.14 m"
     " where that leads to more rooms.",
@@ -62,6 +71,8 @@ class Judged:
     speed_m_s: float
     length_m: float
     duration_s: float
+    near_share: float
+    outdoor_share: float
 
 
 def judge(house: House, tour: Tour) -> Judged:
@@ -87,7 +98,33 @@ def judge(house: House, tour: Tour) -> Judged:
         speed_m_s=float((ways / steps).max()),
         length_m=float(ways.sum()),
         duration_s=float(path.times_s[-1]),
+        near_share=float((looks(house, tour) < NEAR_M).mean()),
+        outdoor_share=float(
+            sum(one.end_s - one.start_s for one in tour.stretches if one.title == OUTSIDE)
+            / path.times_s[-1]
+        ),
     )
+
+
+def looks(house: House, tour: Tour) -> NDArray[np.float64]:
+    """(n,) at each fifth of a second, how far (m) one sees before a wall, a leaf or a wardrobe.
+
+    By exact lines at the height of the eyes, `FAR_M` at most; on stairs one sees far.
+    """
+    path = tour.path
+    times = np.arange(0.0, path.times_s[-1], LOOK_S)
+    eyes = np.stack([np.interp(times, path.times_s, x) for x in path.eyes_m.T], axis=1)
+    ways = np.stack([np.interp(times, path.times_s, x) for x in path.directions.T], axis=1)
+    ways = ways[:, :2] / np.linalg.norm(ways[:, :2], axis=1)[:, None]
+    rays = shapely.linestrings(np.stack([eyes[:, :2], eyes[:, :2] + FAR_M * ways], axis=1))
+    leaves = leaves_as_toured(house.part, tour.shut)
+    away = np.full(len(times), FAR_M)
+    for space in house.spaces:
+        here = np.abs(eyes[:, 2] - EYE_M - space.storey.elevation_m) < 0.05
+        met = shapely.intersection(np.asarray(rays)[here], before_eyes(space, leaves))
+        far = shapely.distance(met, shapely.points(eyes[here, :2]))
+        away[here] = np.where(np.isnan(far), FAR_M, far)
+    return away
 
 
 def _stands_in(shape: Polygon, feet: NDArray[np.float64], storey: Storey) -> bool:
@@ -197,6 +234,9 @@ def row_of(seed: int) -> Row:
         "speed m/s": found.speed_m_s,
         "length m": found.length_m,
         "lasts s": found.duration_s,
+        "looks nearer than 1 m": found.near_share,
+        "outdoors": found.outdoor_share,
+        "doors kept closed": len(tour.shut),
         "found in s": seconds,
         "left out": "; ".join(found.missed),
     }
@@ -234,6 +274,10 @@ def summary(rows: list[Row]) -> Row:
         "most speed m/s": float(column("speed m/s").max()),
         "median length m": float(np.median(column("length m"))),
         "median lasts s": float(np.median(column("lasts s"))),
+        "looks nearer than 1 m": float(np.mean(column("looks nearer than 1 m"))),
+        "most of a house": float(column("looks nearer than 1 m").max()),
+        "outdoors at most": float(column("outdoors").max()),
+        "doors kept closed": int(column("doors kept closed").sum()),
         "median found in s": float(np.median(column("found in s"))),
         "most found in s": float(column("found in s").max()),
     }

@@ -155,6 +155,11 @@ class Tour(_Record):
     stretches: list[TourStretch] = Field(
         default=[], max_length=10_000, description="the rooms passed, in the order of the tour"
     )
+    shut: list[str] = Field(
+        default=[],
+        max_length=10_000,
+        description="ids of features: doors that stay closed on it, as their leaves bar its way",
+    )
 
     @model_validator(mode="after")
     def _columns_belong_together(self) -> Self:

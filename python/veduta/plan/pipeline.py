@@ -55,7 +55,7 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "42"
+VERSION = "43"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
@@ -273,7 +273,7 @@ def _make(
         house = house_step(document, finished.pictures, built, steps, progress)
         site = site_of(document)
         building.give(Building(house, built, site))
-        tour = tour_step(house, built, steps, progress)
+        tour, house = tour_step(house, built, steps, progress)
         progress("drawings", 0.0)
         with timed_step(steps, "drawings"):
             result = result_of(document, house, tour, sheets, finished, given.panorama, site)

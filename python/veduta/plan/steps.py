@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call
@@ -20,6 +21,7 @@ from veduta.plan.photos.finish import Finished, load_pictures, with_photos
 from veduta.plan.photos.given import RoomPhoto
 from veduta.plan.sheets import Pixels, load_sheets
 from veduta.plan.tour.find import Tour, find_tour
+from veduta.plan.tour.leaves import with_shut
 from veduta.plan.upper_floor import upper_floor
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
@@ -137,10 +139,13 @@ def house_step(
 
 def tour_step(
     house: House, options: HouseOptions, steps: list[StepRecord], progress: StepProgress
-) -> Tour | None:
-    """The tour of the house; None where none is wanted, or there is no floor to stand on."""
+) -> tuple[Tour | None, House]:
+    """The tour, and the house in which the doors are closed that it keeps so.
+
+    There is none where none is wanted, or there is no floor to stand on.
+    """
     if options.no_tour:
-        return None
+        return None, house
     progress("tour", 0.0)
     with timed_step(steps, "tour") as step:
         above = upper_floor([space.storey for space in house.spaces]) is not None
@@ -149,7 +154,7 @@ def tour_step(
         )
         if tour is None:
             step.rejected.append("there is no tour: no room has a floor on which one can stand")
-            return None
+            return None, house
         step.counts |= {
             "rooms": len(
                 {(one.storey, one.room) for one in tour.stretches if one.room is not None}
@@ -158,4 +163,6 @@ def tour_step(
             "seconds": round(float(tour.path.times_s[-1])),
         }
         step.rejected.extend(tour.notes)
-    return tour
+    if tour.shut:
+        house = replace(house, part=with_shut(house.part, tour.shut))
+    return tour, house

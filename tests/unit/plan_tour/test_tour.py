@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from plan_documents import document_of
 from plan_tour import furnished, judge
-from sample_plan import opening, room, sample_plan, sample_storey
+from sample_plan import opening, room, sample_plan, sample_storey, wall
 from shapely.geometry import LineString, Point
 from shapely.ops import unary_union
 
-from veduta.plan.document import PlanDocument, Stairs, Storey
+from veduta.plan.document import Furniture, Junction, PlanDocument, Stairs, Storey
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.entrance import entrances
 from veduta.plan.house.placing import place_of
 from veduta.plan.options import HouseOptions
+from veduta.plan.tour.clear_view import before_eyes
 from veduta.plan.tour.find import EYE_M, INDOORS, Tour, find_tour
+from veduta.plan.tour.free import BODY_M
+from veduta.plan.tour.leaves import leaves_as_toured, with_shut
+from veduta.plan.tour.outside import outside_of
 from veduta.plan.tour.pace import TURN_RAD_S, travelled
 from veduta.plan.tour.placing import placed_tour
+from veduta.plan.tour.planned import plan_for
 from veduta.synthetic.plans.layout import make_house
 
 SPEED_M_S = 1.2
@@ -120,6 +126,75 @@ def test_rooms_without_a_door_are_named() -> None:
         "the tour leaves out Bath (bath) of ground floor: no door that is wide enough leads to it",
     )
     assert "bath" not in {stretch.room for stretch in tour.stretches}
+
+
+def behind_a_leaf() -> PlanDocument:
+    """A bedroom before whose door the leaf of a wardrobe stands when it is open."""
+    more = {"g": (5.0, 1.3), "h": (6.2, 1.3), "i": (6.2, 0.0)}
+    base = sample_storey()
+    junctions = [*base.junctions,
+                 *(Junction(id=name, at_m=at, type="T") for name, at in more.items())]  # fmt: skip
+    kept = [one for one in base.walls if one.id not in {"middle", "south-2"}]
+    walls = [
+        *kept, wall("middle", "g", "e", outer=False), wall("low", "b", "g", outer=False),
+        wall("top", "g", "h", outer=False), wall("side", "i", "h", outer=False),
+        wall("south-2", "b", "i"), wall("south-3", "i", "c"),
+    ]  # fmt: skip
+    openings = [
+        opening("front", "south-1", 0.6, 1.0, hinge="start", swing="left"),
+        opening("inner", "middle", 0.2, 0.8, hinge="end", swing="left"),
+        opening("robe", "top", 0.15, 0.8, hinge="start", swing="left"),
+    ]
+    corner = [(5.06, 1.36), (6.26, 1.36), (6.26, 0.15), (7.85, 0.15), (7.85, 4.85), (5.06, 4.85)]
+    rooms = [
+        base.rooms[0], room("bed", corner, use="bedroom", name="Bedroom"),
+        room("robe", [(5.06, 0.15), (6.14, 0.15), (6.14, 1.24), (5.06, 1.24)], use="wardrobe"),
+    ]  # fmt: skip
+    changes: dict[str, Any] = {"junctions": junctions, "walls": walls, "rooms": rooms}
+    return sample_plan(sample_storey(openings=openings, **changes))
+
+
+def test_a_leaf_in_the_way_to_a_bedroom_is_kept_closed() -> None:
+    house, tour = toured(behind_a_leaf())
+    assert "bed" in {stretch.room for stretch in tour.stretches}
+    assert placed_tour(tour, 0.0).shut == ["house/ground-floor-door-robe"]
+    assert tour.notes == (
+        "the tour keeps ground floor door robe closed: open, its leaf bars the way to a room",
+    )
+    as_toured = with_shut(house.part, tour.shut)
+    stand = {mover.name.split()[0]: mover.opened for mover in as_toured.movers}
+    assert stand["robe"] == 0.0 < min(stand["front"], stand["inner"])
+    assert judge(replace(house, part=as_toured), tour).clear_m > 0.15
+    # As it was, with all doors open, nobody of his size gets in.
+    assert planned_with_all_open(house) == {"living"}
+
+
+def planned_with_all_open(house: House) -> set[str]:
+    """The rooms that one reaches who closes no door."""
+    found = plan_for(house, outside_of(house.spaces[0], entrances(house.spaces[0])[0]), BODY_M)
+    assert found is not None
+    return {stop.room.id for stop in found.found.stops}
+
+
+def test_no_door_is_closed_where_that_opens_no_room() -> None:
+    walled_up = [one for one in behind_a_leaf().storeys[0].openings if one.id != "inner"]
+    storey = behind_a_leaf().storeys[0].model_copy(update={"openings": walled_up})
+    for document in (sample_plan(), sample_plan(storey)):
+        assert toured(document)[1].shut == ()
+
+
+def test_wardrobes_and_open_leaves_are_before_ones_eyes_and_tables_are_not() -> None:
+    house, _ = toured(sample_plan())
+    space = house.spaces[0]
+    leaf = next(one for one in leaves_as_toured(house.part) if one.low_m < 1.0)
+    place = leaf.footprint.centroid
+    assert not before_eyes(space).contains(place)
+    assert before_eyes(space, [leaf]).buffer(1e-6).contains(place)
+    for high, seen in ((2.0, True), (0.8, False)):
+        item = Furniture(room="living", id="f", object="wardrobe", at_m=(2.5, 2.5), turn_rad=0.0,
+                         size_m=(1.0, 0.6, high))  # fmt: skip
+        changed = space.storey.model_copy(update={"furniture": [item]})
+        assert before_eyes(replace(space, storey=changed)).contains(Point(2.5, 2.5)) is seen
 
 
 def test_a_house_without_a_way_in_is_toured_indoors() -> None:

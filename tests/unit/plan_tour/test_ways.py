@@ -21,7 +21,7 @@ from veduta.plan.house.space import space_of
 from veduta.plan.tour.find import coarse_notes
 from veduta.plan.tour.free import BODY_M, GRAZE_M, Ground, footprint, ground_of
 from veduta.plan.tour.grid import MOST_CELLS, MOST_IN_ALL, SHY_COST, SHY_M, Cells, Grid, cells_of
-from veduta.plan.tour.leaves import OpenLeaf
+from veduta.plan.tour.leaves import DoorLeaf
 from veduta.plan.tour.smooth import resampled, smoothed
 from veduta.plan.tour.stops import short_order, squares_in
 
@@ -32,7 +32,7 @@ def thing(at: tuple[float, float], size: tuple[float, float, float], **more: flo
     return Furniture(id="f", object="box", room="living", at_m=at, size_m=size, **more)
 
 
-def ground(*furniture: Furniture, leaves: tuple[OpenLeaf, ...] = (), **changes: object) -> Ground:
+def ground(*furniture: Furniture, leaves: tuple[DoorLeaf, ...] = (), **changes: object) -> Ground:
     storey = sample_storey(furniture=list(furniture), **changes)
     return ground_of(space_of(storey, HEIGHT_M), leaves, Polygon(), ())
 
@@ -94,8 +94,8 @@ def test_furniture_is_turned_about_its_middle() -> None:
 
 
 def test_a_leaf_high_up_is_no_obstacle() -> None:
-    lifted = OpenLeaf(box(1.0, 1.0, 3.0, 3.0), 2.1, 2.2)
-    standing = OpenLeaf(box(1.0, 1.0, 3.0, 3.0), 0.0, 2.0)
+    lifted = DoorLeaf(0, box(1.0, 1.0, 3.0, 3.0), 2.1, 2.2)
+    standing = DoorLeaf(0, box(1.0, 1.0, 3.0, 3.0), 0.0, 2.0)
     assert ground(leaves=(lifted,)).free.covers(Point(2.0, 2.0))
     assert not ground(leaves=(standing,)).free.covers(Point(2.0, 2.0))
 

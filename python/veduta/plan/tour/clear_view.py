@@ -13,10 +13,13 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
+from veduta.plan.house.furniture import footprint
 from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.tour.free import Ground
+from veduta.plan.tour.leaves import DoorLeaf
 
 
 @dataclass(frozen=True)
@@ -40,11 +43,13 @@ class ViewRule:
 
 
 VIEW = ViewRule()
+SEEN_M = 1.6
+"""What reaches over this above the floor is before one's eyes: they are a little higher."""
 
 
 @dataclass(frozen=True)
 class Sight:
-    """The walls of a storey as a map (h, w): what one cannot see through. origin_m: its corner."""
+    """What of a storey one cannot see through, as a map (h, w). origin_m: its corner."""
 
     elevation_m: float
     solid: NDArray[np.bool_]
@@ -66,9 +71,30 @@ class Sight:
         return far
 
 
-def sights_of(grounds: Sequence[Ground], rule: ViewRule = VIEW) -> list[Sight]:
-    """The maps of all storeys: walls less doors, gaps and windows, which one looks through."""
-    return [_sight(ground.space, ground.elevation_m, rule) for ground in grounds]
+def sights_of(
+    grounds: Sequence[Ground], leaves: Sequence[DoorLeaf] = (), rule: ViewRule = VIEW
+) -> list[Sight]:
+    """The maps of all storeys: what is before one's eyes, and near walls that one looks past."""
+    return [
+        _sight(before_eyes(ground.space, leaves), ground.elevation_m, rule) for ground in grounds
+    ]
+
+
+def before_eyes(space: Space, leaves: Sequence[DoorLeaf] = ()) -> BaseGeometry:
+    """What one cannot see through at the height of the eyes: walls, leaves, tall furniture.
+
+    Doors, gaps and windows are seen through; leaves are those of open doors as they stand.
+    """
+    storey = space.storey
+    eyes = storey.elevation_m + SEEN_M
+    tall = [
+        footprint(item)
+        for item in storey.furniture or ()
+        if item.above_m < SEEN_M < item.above_m + item.size_m[2]
+    ]
+    stood = [leaf.footprint for leaf in leaves if leaf.low_m < eyes < leaf.high_m]
+    walls = space.walls.difference(unary_union([hole.outline for hole in space.holes]))
+    return unary_union([walls, *tall, *stood])
 
 
 def cleared(
@@ -120,8 +146,7 @@ def _cheapest(cost: NDArray[np.float64], rule: ViewRule) -> NDArray[np.int64]:
     return course
 
 
-def _sight(space: Space, elevation_m: float, rule: ViewRule) -> Sight:
-    solid = space.walls.difference(unary_union([hole.outline for hole in space.holes]))
+def _sight(solid: BaseGeometry, elevation_m: float, rule: ViewRule) -> Sight:
     left, bottom, right, top = solid.bounds if not solid.is_empty else (0.0, 0.0, 1.0, 1.0)
     origin = np.array([left, bottom]) - rule.margin_m
     size = np.ceil((np.array([right, top]) + rule.margin_m - origin) / rule.cell_m).astype(int)

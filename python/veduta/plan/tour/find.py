@@ -7,30 +7,25 @@ right before one's eyes.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 
 from veduta.place.camera_path import CameraPath
-from veduta.plan.document import RoomUse
 from veduta.plan.house.build import House
 from veduta.plan.house.entrance import entrances
-from veduta.plan.house.flights import stairwells
 from veduta.plan.tour import gaze, pace
 from veduta.plan.tour.clear_view import cleared, sights_of
-from veduta.plan.tour.climbs import climbs_of
-from veduta.plan.tour.free import BODY_M, SLIM_M, Ground, ground_of
-from veduta.plan.tour.grid import CELL_M, Cells, Grid, cells_of
-from veduta.plan.tour.leaves import open_leaves
+from veduta.plan.tour.free import Ground
+from veduta.plan.tour.grid import CELL_M, Cells, Grid
 from veduta.plan.tour.outside import Outside, outside_of
+from veduta.plan.tour.planned import THROUGH, planned, shut_notes
 from veduta.plan.tour.smooth import STEP_M, lengths_along, resampled, smoothed
-from veduta.plan.tour.stops import Stop, Stops, short_order, squares_in, stops_of
+from veduta.plan.tour.stops import Stop, short_order
 from veduta.plan.tour.stretches import Stretch, stretches_of
 
 EYE_M = 1.7
@@ -39,8 +34,6 @@ SHORT_M = 1.2
 """One stops so far before the middle of a room at most, to see it in front ..."""
 SHORT_SHARE = 0.4
 """... and by no more than this share of the way in it."""
-THROUGH: frozenset[RoomUse] = frozenset({"hall", "corridor", "stairs"})
-"""Where one passes, and stops only if the way does not lead through."""
 ON_FLOOR_M = 0.05
 OUTDOORS = 0.2
 """At most so much of the tour is outdoors ..."""
@@ -55,13 +48,18 @@ INDOORS = "the tour is indoors only: no way in from outside that is wide enough 
 
 @dataclass(frozen=True)
 class Tour:
-    """The camera's path in the frame of the house, the rooms passed, and what it leaves out."""
+    """The camera's path in the frame of the house, the rooms passed, and what it leaves out.
+
+    shut: the doors that stay closed, as rows of the features of the house; shut_ids: their ids.
+    """
 
     path: CameraPath
     stretches: tuple[Stretch, ...]
     length_m: float
     notes: tuple[str, ...]
     grounds: tuple[Ground, ...]
+    shut: tuple[int, ...] = ()
+    shut_ids: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -77,14 +75,14 @@ def find_tour(house: House, speed_m_s: float, *, indoors: bool = False) -> Tour 
     first = house.spaces[house.ground]
     ways_in = () if indoors else entrances(first)
     outside = outside_of(first, ways_in[0]) if ways_in else None
-    plan = _plan(house, outside)
+    plan = planned(house, outside)
     if plan is None:
         return None
     legs = _legs_through(plan.begin.node, plan.found.stops, plan.grid, plan.grounds)
     around = outside if plan.begin.is_outside else None
     ring, legs = _shared_out(legs, around, first.slab, speed_m_s)
     motions = _motions(legs, ring, first.slab, speed_m_s)
-    sights = sights_of(plan.grounds)
+    sights = sights_of(plan.grounds, plan.leaves)
     timed = pace.timed(motions, lambda feet, yaw: cleared(feet, yaw, sights))
     eyes = timed.feet_m + np.array([0.0, 0.0, EYE_M])
     path = CameraPath("tour", timed.times_s, eyes, timed.directions, FOV_RAD)
@@ -92,9 +90,12 @@ def find_tour(house: House, speed_m_s: float, *, indoors: bool = False) -> Tour 
     notes = (
         *coarse_notes(plan.grounds, plan.grid.storeys),
         *plan.found.missed,
+        *shut_notes([house.part.features.name[door] for door in plan.shut]),
         *((INDOORS,) if around is None and not indoors else ()),
     )
-    return Tour(path, stretches_of(timed, plan.grounds), length, notes, plan.grounds)
+    ids = tuple(house.part.features.id[door] for door in plan.shut)
+    passed = stretches_of(timed, plan.grounds)
+    return Tour(path, passed, length, notes, plan.grounds, plan.shut, ids)
 
 
 def coarse_notes(grounds: Sequence[Ground], squares: Sequence[Cells]) -> list[str]:
@@ -105,82 +106,6 @@ def coarse_notes(grounds: Sequence[Ground], squares: Sequence[Cells]) -> list[st
         for ground, cells in zip(grounds, squares, strict=True)
         if cells.side_m > CELL_M
     ]
-
-
-@dataclass(frozen=True)
-class _Plan:
-    """Where one can walk, where to begin, and which rooms to go to."""
-
-    grounds: tuple[Ground, ...]
-    grid: Grid
-    begin: _Begin
-    found: Stops
-
-
-def _plan(house: House, outside: Outside | None) -> _Plan | None:
-    """For a visitor who walks straight, or turns sideways where that leads to more rooms."""
-    usual = _plan_for(house, outside, BODY_M)
-    if usual is not None and not usual.found.missed and usual.begin.is_outside:
-        return usual
-    slim = _plan_for(house, outside, SLIM_M)
-    if usual is None or slim is None:
-        return slim
-    return max(usual, slim, key=lambda plan: (len(plan.found.stops), plan.begin.is_outside))
-
-
-def _plan_for(house: House, outside: Outside | None, body_m: float) -> _Plan | None:
-    leaves = open_leaves(house.part)
-    # How thick the slab is matters for wells alone, and those the house has.
-    wells = stairwells(house.spaces, 0.0)
-    climbs = climbs_of(house.spaces, wells)
-    around = Polygon() if outside is None else outside.region
-    grounds = tuple(
-        ground_of(
-            space,
-            leaves,
-            around if number == house.ground else Polygon(),
-            wells[number].flights,
-            body_m,
-        )
-        for number, space in enumerate(house.spaces)
-    )
-    grid = Grid([cells_of(ground, len(grounds)) for ground in grounds], climbs)
-    begin = _begin(grid, grounds, outside, house.ground)
-    if begin is None:
-        return None
-    return _Plan(grounds, grid, begin, stops_of(grounds, grid, begin.node))
-
-
-@dataclass(frozen=True)
-class _Begin:
-    """The square at which the tour begins and ends."""
-
-    node: int
-    is_outside: bool
-
-
-def _begin(
-    grid: Grid, grounds: Sequence[Ground], outside: Outside | None, entered: int
-) -> _Begin | None:
-    """Before the house, if most rooms are reached from there, else in the midst of the most."""
-    rooms = Counter[int]()
-    first: dict[int, int] = {}
-    for storey, ground in enumerate(grounds):
-        for _, shape in ground.space.rooms:
-            pieces = grid.pieces_of(squares_in(shape, grid, storey))
-            rooms.update(pieces.keys())
-            first = pieces | first
-    if not rooms:
-        return None
-    most, count = rooms.most_common(1)[0]
-    front = None if outside is None else grid.nearest(entered, outside.ring_m[0])
-    if front is not None and 2 * rooms[next(iter(grid.pieces_of(np.array([front]))))] >= count:
-        return _Begin(front, is_outside=True)
-    stops = stops_of(grounds, grid, first[most]).stops
-    inviting = min(
-        stops, key=lambda stop: (abs(stop.storey - entered), stop.room.use not in THROUGH)
-    )
-    return _Begin(inviting.node, is_outside=False)
 
 
 def _legs_through(

@@ -21,7 +21,7 @@ from veduta.plan.house.flights import AnyFlight
 from veduta.plan.house.furniture import footprint
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space
-from veduta.plan.tour.leaves import OpenLeaf
+from veduta.plan.tour.leaves import DoorLeaf
 
 BODY_M = 0.2
 """Radius of the visitor."""
@@ -71,7 +71,7 @@ class Ground:
 
 def ground_of(
     space: Space,
-    leaves: Sequence[OpenLeaf],
+    leaves: Sequence[DoorLeaf],
     outdoors: BaseGeometry,
     flights: Sequence[AnyFlight],
     body_m: float = BODY_M,

@@ -1,8 +1,9 @@
-"""What open doors cover: the footprints of leaves as they stand when one walks through."""
+"""What doors cover: the footprints of leaves as they stand when one walks through, or by."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,27 +17,46 @@ from veduta.plan.house.doors import OPENED
 
 
 @dataclass(frozen=True)
-class OpenLeaf:
-    """A leaf that stands open: its footprint (plan frame, m) and between which heights it is."""
+class DoorLeaf:
+    """A leaf as it stands: its footprint (plan frame, m) and between which heights it is.
 
+    door: the row of its door among the features of the part.
+    """
+
+    door: int
     footprint: BaseGeometry
     low_m: float
     high_m: float
 
 
-def open_leaves(part: Part) -> list[OpenLeaf]:
-    """All leaves of a house, opened. A closed one opens before the visitor, so that none is."""
-    return [_opened(part, mover) for mover in part.movers if len(mover.polygons)]
+def leaves_as_toured(part: Part, shut: Collection[int] = ()) -> list[DoorLeaf]:
+    """All leaves of a house, opened: a closed one opens before the visitor. `shut` doors do not."""
+    movers = [mover for mover in part.movers if len(mover.polygons)]
+    return [_stood(part, mover, shut) for mover in movers]
 
 
-def _opened(part: Part, mover: Mover) -> OpenLeaf:
+def with_shut(part: Part, shut: Collection[int]) -> Part:
+    """The part in which these doors stand closed."""
+    movers = [
+        replace(mover, opened=0.0) if len(mover.polygons) and _door(part, mover) in shut else mover
+        for mover in part.movers
+    ]
+    return replace(part, movers=tuple(movers))
+
+
+def _door(part: Part, mover: Mover) -> int:
+    return int(part.polygon_feature[mover.polygons[0]])
+
+
+def _stood(part: Part, mover: Mover, shut: Collection[int]) -> DoorLeaf:
     points = _corners(part, mover.polygons)
-    share = mover.opened or OPENED
+    door = _door(part, mover)
+    share = 0.0 if door in shut else mover.opened or OPENED
     turn = Rotation.from_rotvec(share * mover.turn_rad * np.array(mover.axis))
     pivot = np.array(mover.pivot_m)
     placed = turn.apply(points - pivot) + pivot + share * np.array(mover.shift_m)
     footprint = MultiPoint(placed[:, :2]).convex_hull
-    return OpenLeaf(footprint, float(placed[:, 2].min()), float(placed[:, 2].max()))
+    return DoorLeaf(door, footprint, float(placed[:, 2].min()), float(placed[:, 2].max()))
 
 
 def _corners(part: Part, polygons: NDArray[np.int64]) -> NDArray[np.float64]:

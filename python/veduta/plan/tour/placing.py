@@ -33,4 +33,5 @@ def placed_tour(tour: Tour, raised_m: float) -> PlaceTour:
             )
             for stretch in tour.stretches
         ],
+        shut=[*tour.shut_ids],
     )

@@ -37,10 +37,14 @@ class Stop:
 
 @dataclass(frozen=True)
 class Stops:
-    """Where to go, and why not to the other rooms."""
+    """Where to go, and why not to the other rooms.
+
+    beyond: storey and shape of rooms in which one could stand, but to which no way leads.
+    """
 
     stops: tuple[Stop, ...]
     missed: tuple[str, ...]
+    beyond: tuple[tuple[int, Polygon], ...] = ()
 
 
 def title_of(room: Room) -> str:
@@ -59,6 +63,7 @@ def stops_of(grounds: Sequence[Ground], grid: Grid, start: int) -> Stops:
     reached = grid.reachable(start)
     stops: list[Stop] = []
     missed: list[str] = []
+    beyond: list[tuple[int, Polygon]] = []
     for storey, ground in enumerate(grounds):
         before, notes = len(stops), []
         for room, shape in ground.space.rooms:
@@ -70,10 +75,11 @@ def stops_of(grounds: Sequence[Ground], grid: Grid, start: int) -> Stops:
                 stops.append(Stop(room, shape, storey, _midst(shape, grid, there)))
             else:
                 notes.append(_why(room, ground, free=len(within) > 0))
+                beyond += [(storey, shape)] if len(within) else []
         if len(stops) == before and len(notes) > 1:
             notes = [f"the tour leaves out {ground.space.storey.name}: no way leads to it"]
         missed += notes
-    return Stops(tuple(stops), tuple(missed))
+    return Stops(tuple(stops), tuple(missed), tuple(beyond))
 
 
 def squares_in(shape: Polygon, grid: Grid, storey: int) -> NDArray[np.int64]:
