@@ -36,9 +36,7 @@ def _model(path: Path, away_m: float = 0.0) -> Path:
         ring = [low, (high[0], low[1]), high, (low[0], high[1]), low]
         placed = [[EAST + away_m + LARGE * x, NORTH + away_m + LARGE * y] for x, y in ring]
         shape = {"type": "Polygon", "coordinates": [placed]}
-        features.append(
-            {"type": "Feature", "properties": {"height": 3 * LARGE}, "geometry": shape}
-        )
+        features.append({"type": "Feature", "properties": {"height": 3 * LARGE}, "geometry": shape})
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
     return path
 

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
+from typing import Any
 
 import ezdxf
 import ifcopenshell
 import ifcopenshell.util.element
+import pyogrio
+import pyogrio.raw
 import pytest
+import shapely
 from sample_plan import DEPTH_M, OUTER_M, WIDTH_M, sample_plan, sample_storey
 
 from veduta.plan.drawing import draw
@@ -145,14 +149,54 @@ def test_dimensions_say_how_large_the_house_is() -> None:
     assert any(one == pytest.approx(DEPTH_M + OUTER_M, abs=1e-3) for one in found)
 
 
-def test_a_second_reader_finds_the_walls(tmp_path: Path) -> None:
-    pyogrio = pytest.importorskip("pyogrio")
-    if "DXF" not in pyogrio.list_drivers():
-        pytest.skip("this GDAL reads no DXF")
+@pytest.fixture
+def by_gdal(tmp_path: Path) -> list[dict[str, Any]]:
+    """What GDAL, which shares no code with the writer, reads; blocks stay references."""
     house = build_house(sample_plan(), HouseOptions())
     path = tmp_path / "plan.dxf"
     path.write_bytes(plan_dxf([draw(one) for one in house.spaces]))
-    meta, _, geometry, fields = pyogrio.raw.read(path, layer="entities")
-    layers = dict(zip(meta["fields"], fields, strict=True))["Layer"]
-    assert len(geometry) > 10
-    assert {"A-WALL", "A-DOOR", "A-GLAZ", "A-ANNO-DIMS"} <= set(layers)
+    pyogrio.set_gdal_config_options({"DXF_INLINE_BLOCKS": False})
+    try:
+        meta, _, geometry, fields = pyogrio.raw.read(path, layer="entities")
+    finally:
+        pyogrio.set_gdal_config_options({"DXF_INLINE_BLOCKS": None})
+    columns = dict(zip(meta["fields"], fields, strict=True))
+    shapes = shapely.from_wkb(geometry)
+    return [
+        {"shape": shape, **{name: values[row] for name, values in columns.items()}}
+        for row, shape in enumerate(shapes)
+    ]
+
+
+def test_a_second_reader_finds_the_walls(by_gdal: list[dict[str, Any]]) -> None:
+    walls = shapely.union_all([one["shape"] for one in by_gdal if one["Layer"] == "A-WALL"])
+    half = OUTER_M / 2
+    assert walls.bounds == pytest.approx((-half, -half, WIDTH_M + half, DEPTH_M + half), abs=1e-3)
+
+
+def test_a_second_reader_finds_doors_and_windows_as_blocks(by_gdal: list[dict[str, Any]]) -> None:
+    placed = [one for one in by_gdal if one["BlockName"]]
+    told = {}
+    for one in placed:
+        values = dict(text.split(" ", 1) for text in one["BlockAttributes"])
+        told[values["ID"]] = (one["Layer"], values["TYPE"], float(values["WIDTH"]))
+    layers = {"door": "A-DOOR", "window": "A-GLAZ"}
+    assert told == {
+        one.id: (layers[one.kind], one.type, pytest.approx(one.width_m, abs=0.002))
+        for one in sample_storey().openings
+        if one.kind in layers
+    }
+    # The front door stands at the south wall, 0.6 m along it, and the inner one is turned.
+    at = {one["BlockAttributes"][0]: one for one in placed}
+    assert at["ID front"]["BlockOCSCoords"][:2] == pytest.approx([0.6, 0.0], abs=1e-6)
+    assert at["ID inner"]["BlockAngle"] == pytest.approx(90.0)
+
+
+def test_a_second_reader_finds_the_dimensions(by_gdal: list[dict[str, Any]]) -> None:
+    """In centimetres, beside the house, along two of its sides."""
+    rows = [one for one in by_gdal if one["Layer"] == "A-ANNO-DIMS" and one["Text"]]
+    centimetres = [round(100 * (side + OUTER_M)) for side in (DEPTH_M, WIDTH_M)]
+    assert sorted(int(one["Text"]) for one in rows) == centimetres
+    lines = [one["shape"].length for one in by_gdal if one["Layer"] == "A-ANNO-DIMS"]
+    for side in (DEPTH_M, WIDTH_M):
+        assert any(length == pytest.approx(side + OUTER_M, abs=0.01) for length in lines)
