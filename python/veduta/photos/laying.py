@@ -29,7 +29,7 @@ from veduta.photos.world.georeferencing import (
     in_the_world,
 )
 from veduta.photos.world.ground import ground_height
-from veduta.photos.world.pictures import georef_pictures
+from veduta.photos.world.pictures import georef_pictures, model_beside
 from veduta.photos.world.which_way_up import looks_down, which_way_up
 from veduta.run.page import Picture
 from veduta.run.progress import StepProgress
@@ -121,7 +121,8 @@ def _laid(
     found = georeference(structure, walls, photos, references, method, seed, up_sd_rad)
     pictures: list[Picture] = []
     for tried in found.tried:
-        model = references.model if tried.method == "model" else None
+        known = references.model
+        model = known if tried.method == "model" else model_beside(tried, known)
         pictures += georef_pictures(structure, walls, tried, model)
     moved = replace(component, structure=in_the_world(structure, found.accepted))
     return Laid(moved, walls_in_the_world(walls, found.accepted), found, tuple(pictures))

@@ -100,7 +100,8 @@ def match_picture(
     planar = sum(pair.planar for pair in pairs)
     note = (
         "Which photos agree: a row and a column per photo in the order of their names, the darker"
-        f" the more features. {planar} pairs are explained by a plane."
+        " the more features."
+        + (f" {planar} pairs of photos agree in one flat surface alone." if planar else "")
         + (f" Red: {len(doubtful)} doubtful pairs, which were not used." if doubtful else "")
     )
     return Picture("Matches", note, png(np.asarray(pixels, np.uint8)), "image/png")

@@ -9,6 +9,7 @@ from functools import cache
 from typing import Literal
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template, select_autoescape
+from markupsafe import Markup
 
 from veduta.run.names import given_names
 from veduta.run.report import Count, Report
@@ -95,7 +96,14 @@ def _template() -> Template:
         lstrip_blocks=True,
     )
     environment.filters["figure"] = _figure
+    environment.filters["coded"] = _coded
     return environment.get_template("report.html.j2")
+
+
+def _coded(text: str) -> Markup:
+    """What stands between backticks, as it does in the docs, in the letters of a file's name."""
+    pieces = enumerate(text.split("`"))
+    return Markup().join(Markup("<code>{}</code>").format(p) if k % 2 else p for k, p in pieces)
 
 
 def _figure(value: object) -> str:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +14,19 @@ from PIL import Image
 
 from veduta.formats.gltf import write_glb
 from veduta.formats.gltf_read import read_glb
+from veduta.photos.city.reading import read_city_model
 from veduta.photos.matching.match import PairRecord
-from veduta.photos.report_pictures import INK, draw_ruler, match_picture, plan_picture
+from veduta.photos.options import ModelOptions
+from veduta.photos.report_pictures import FAINT, INK, draw_ruler, match_picture, plan_picture
 from veduta.photos.walls.grid import WallGrid
 from veduta.photos.walls.part import walls_part
 from veduta.photos.walls.pictures import WallPicture
 from veduta.photos.walls.wall import Wall
+from veduta.photos.world.georeference import Fit, Georeference, Residual, Similarity
+from veduta.photos.world.georeferencing import Georeferenced
+from veduta.photos.world.pictures import georef_pictures, model_beside
+from veduta.photos.world.report import georef_tables
+from veduta.run.page import Picture, Table
 
 
 def pixels_of(data: bytes) -> np.ndarray:
@@ -74,3 +83,33 @@ def test_one_sees_through_a_wall_where_no_photo_shows_it(tmp_path: Path) -> None
 
 def _picture(grid: WallGrid, pixels: np.ndarray) -> WallPicture:
     return WallPicture(grid, pixels, (0,), 0.6)
+
+
+def _laid_by_gps(tmp_path: Path, model_crs: str) -> tuple[Picture, list[Table]]:
+    """The picture and the tables of a component that GPS lays beside a model of another frame."""
+    structure = known_structure()
+    origin = (500_000.0, 5_500_000.0, 0.0)
+    similar = Similarity(1.0, np.eye(3), np.zeros(3))
+    fit = Fit(similar, 0.01, np.zeros(3), np.ones(3), 0.4, 1.0, (Residual("a.jpg", 0.4),))
+    found = Georeference("gps", True, "fits", "EPSG:25832", origin, fit)
+    middle = structure.centres().mean(axis=0)[:2] + origin[:2]
+    corners = middle + 3.0 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
+    shape = {"type": "Polygon", "coordinates": [corners.tolist()]}
+    lot = {"type": "Feature", "properties": {"height": 5}, "geometry": shape}
+    path = tmp_path / "lots.geojson"
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": [lot]}))
+    model = read_city_model(path, ModelOptions(crs=model_crs))
+    found = replace(found, origin_m=model.origin_m)
+    (picture,) = georef_pictures(structure, (), found, model_beside(found, model))
+    return picture, georef_tables([Georeferenced((found,))])
+
+
+def test_a_map_by_gps_has_the_outlines_of_a_model_of_its_frame(tmp_path: Path) -> None:
+    same, tables = _laid_by_gps(tmp_path, "EPSG:25832")
+    other, _ = _laid_by_gps(tmp_path, "EPSG:25833")
+    assert "outlines of the model" in same.note
+    assert "outlines" not in other.note
+    grey = (pixels_of(same.data) == FAINT).all(axis=2).sum()
+    assert grey > (pixels_of(other.data) == FAINT).all(axis=2).sum() + 100
+    assert "North is up" in same.note
+    assert tables[0].rows[0][0] == "A"

@@ -100,3 +100,8 @@ def test_bars_are_to_scale() -> None:
     bars = Bars("t", "s", [("a", 2.0), ("b", 0.5), ("c", 0.0)])
     assert [bars.width(value) for _, value in bars.values] == [100, 25, 0]
     assert Bars("t", "s", [("a", 0.0)]).width(0.0) == 0
+
+
+def test_what_a_file_is_has_no_backticks() -> None:
+    text = page_text(Page("a", "b", files=[("walls/", "pictures, and `walls.glb` <b>")]))
+    assert "pictures, and <code>walls.glb</code> &lt;b&gt;" in text

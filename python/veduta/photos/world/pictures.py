@@ -41,9 +41,9 @@ def georef_pictures(
     if tried.best is None:
         return []
     facades = None if model is None else facades_of(model)
-    note = "Grey: outlines of the model. Blue: walls. Red: cameras. Dots: points."
-    if model is None:
-        note = "Red: cameras. Dots: points."
+    drawn = ("Grey: outlines of the model.",) if model is not None else ()
+    drawn = (*drawn, *(("Blue: walls.",) if walls else ()))
+    note = " ".join((*drawn, "Red: cameras. Dots: points. North is up."))
     first = _plan(structure, walls, tried.best, facades)
     if tried.accepted:
         title = f"In the world, by {_title(tried)}"
@@ -54,6 +54,13 @@ def georef_pictures(
     both = _beside(first, second)
     title = f"Refused: the two best fits by {_title(tried)}"
     return [Picture(title, f"{note} The best is at the left.", png(both), "image/png")]
+
+
+def model_beside(tried: Georeference, model: CityModel | None) -> CityModel | None:
+    """The model, where it lies in the frame into which something else laid the photos."""
+    if model is None or (model.crs, model.origin_m) != (tried.crs, tried.origin_m):
+        return None
+    return model
 
 
 def _title(tried: Georeference) -> str:

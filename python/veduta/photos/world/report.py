@@ -88,7 +88,11 @@ def georef_tables(found: Sequence[Georeferenced]) -> list[Table]:
         *("component", "by", "fit", "believed", "scale", "turn, tilt"),
         *("place", "height", "rms", "score"),
     )
-    note = "What stays open is one deviation; of the place, that of the middle of the photos."
+    note = (
+        "What stays open is one deviation; of the place, that of the middle of the photos. Best and"
+        " second are the two ways of laying it that fit best: the higher the score, the better."
+        " rms is how far the photos and what they are laid onto lie apart."
+    )
     return [Table("In the world", columns, rows, note=note), *tables]
 
 
@@ -96,7 +100,7 @@ def _row(number: int, tried: Georeference, which: str, fit: Fit) -> list[str]:
     tilt = np.rad2deg(fit.rotation_sd_rad)
     believed = "yes" if tried.accepted and which == "best" else "no"
     return [
-        str(number),
+        component_name(number),
         method_name(tried.method),
         which,
         believed,
