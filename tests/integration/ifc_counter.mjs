@@ -27,8 +27,8 @@ function materials(found) {
   switch (classOf(found)) {
     case "IfcMaterial":
       return [found.Name.value];
-    case "IfcMaterialLayerSetUsage":
-      return line(found.ForLayerSet).MaterialLayers.flatMap((one) => materials(line(line(one).Material)));
+    case "IfcMaterialLayerSet":
+      return found.MaterialLayers.flatMap((one) => materials(line(line(one).Material)));
     case "IfcMaterialConstituentSet":
       return found.MaterialConstituents.flatMap((one) => materials(line(line(one).Material)));
     default:
@@ -64,23 +64,36 @@ function countAxes(wall) {
 function measure(extents) {
   api.StreamAllMeshes(model, (mesh) => {
     const kind = classOf(line(mesh.expressID));
-    const box = (extents[kind] ??= { shapes: 0, low: [1e9, 1e9, 1e9], high: [-1e9, -1e9, -1e9] });
+    const box = (extents[kind] ??= { shapes: 0, volume: 0, low: [1e9, 1e9, 1e9], high: [-1e9, -1e9, -1e9] });
     box.shapes += 1;
     for (let part = 0; part < mesh.geometries.size(); part += 1) {
       const { geometryExpressID, flatTransformation: m } = mesh.geometries.get(part);
       const shape = api.GetGeometry(model, geometryExpressID);
+      const corners = [];
       const raw = api.GetVertexArray(shape.GetVertexData(), shape.GetVertexDataSize());
       for (let at = 0; at < raw.length; at += 6) {
         const [x, y, z] = [0, 1, 2].map(
           (row) => m[row] * raw[at] + m[4 + row] * raw[at + 1] + m[8 + row] * raw[at + 2] + m[12 + row],
         );
+        corners.push([x, -z, y]);
         [x, -z, y].forEach((value, axis) => {
           box.low[axis] = Math.min(box.low[axis], value);
           box.high[axis] = Math.max(box.high[axis], value);
         });
       }
+      const index = api.GetIndexArray(shape.GetIndexData(), shape.GetIndexDataSize());
+      for (let at = 0; at < index.length; at += 3) {
+        box.volume += signed(corners[index[at]], corners[index[at + 1]], corners[index[at + 2]]);
+      }
     }
   });
+}
+
+/** Of the tetrahedron from the origin to a triangle. */
+function signed(a, b, c) {
+  return (
+    (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+  );
 }
 
 for (const { typeName } of api.GetAllTypesOfModel(model)) {

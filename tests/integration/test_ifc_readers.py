@@ -16,7 +16,16 @@ import ifcopenshell.util.element
 import ifcopenshell.util.shape
 import numpy as np
 import pytest
-from sample_plan import DEPTH_M, HEIGHT_M, OUTER_M, WIDTH_M, rectangle, sample_plan, sample_storey
+from sample_plan import (
+    DEPTH_M,
+    HEIGHT_M,
+    INNER_M,
+    OUTER_M,
+    WIDTH_M,
+    rectangle,
+    sample_plan,
+    sample_storey,
+)
 
 from veduta.plan.document import Furniture, Light, Stairs
 from veduta.plan.house.build import build_house
@@ -229,3 +238,25 @@ def test_both_readers_draw_the_same_house(by_web_ifc: dict[str, Any], model: Any
     assert walls["high"][:2] == pytest.approx(
         [WIDTH_M + OUTER_M / 2, DEPTH_M + OUTER_M / 2], abs=2e-3
     )
+
+
+def test_walls_are_cut_for_who_subtracts_nothing(by_web_ifc: dict[str, Any], model: Any) -> None:
+    """As the Reference View has it: the body of a wall is that of its stones alone."""
+    outer = 2 * (WIDTH_M + DEPTH_M) * OUTER_M + (DEPTH_M - OUTER_M) * INNER_M
+    openings = [(one, OUTER_M) for one in sample_storey().openings if one.wall != "middle"]
+    openings += [(one, INNER_M) for one in sample_storey().openings if one.wall == "middle"]
+    cut = sum(one.width_m * one.height_m * thick for one, thick in openings)
+    heights = HEIGHT_M - HouseOptions().slab
+    settings = ifcopenshell.geom.settings()
+    settings.set("disable-opening-subtractions", True)
+    shapes = [ifcopenshell.geom.create_shape(settings, one) for one in model.by_type("IfcWall")]
+    volume = sum(ifcopenshell.util.shape.get_volume(one.geometry) for one in shapes)
+    assert volume == pytest.approx(2 * (outer * heights - cut), abs=1e-3)
+    assert by_web_ifc["extents"]["IfcWall"]["volume"] == pytest.approx(volume, abs=1e-2)
+    told = {
+        shape.RepresentationIdentifier
+        for one in model.by_type("IfcOpeningElement")
+        for shape in one.Representation.Representations
+    }
+    assert told == {"Reference"}
+    assert len(model.by_type("IfcMaterialLayerSetUsage")) == 0

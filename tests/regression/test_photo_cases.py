@@ -96,6 +96,18 @@ def test_the_wrong_point_is_named(cases: Path, fountain: Structure, name: str) -
     assert found.best.rms_m < 0.005
 
 
+@pytest.mark.parametrize("name", ["f_good", "f_wgs", "f_bad1_minus_g0"])
+def test_points_that_agree_are_all_kept(cases: Path, fountain: Structure, name: str) -> None:
+    """The last has all but the wrong one."""
+    control, _ = settled_axes(fountain, read_control(cases / "gcp" / f"{name}.txt"))
+    found = control_georeference(fountain, control)
+    assert found.accepted, found.why
+    assert "left out" not in found.why
+    assert found.best is not None
+    assert found.best.rms_m < 0.02
+    assert len(found.best.residuals) == len(control.points)
+
+
 def test_latitude_first_is_read(cases: Path, fountain: Structure) -> None:
     control, note = settled_axes(fountain, read_control(cases / "gcp" / "f_swapped.txt"))
     assert "exchanged" in note

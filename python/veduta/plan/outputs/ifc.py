@@ -29,6 +29,7 @@ from veduta.plan.house.sliding import SLIDING
 from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.house.wall_regions import wall_regions
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.ifc_cut import cut_pieces
 from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
 from veduta.plan.outputs.ifc_looks import Describer, by_name, describe
@@ -126,8 +127,18 @@ class _Model:
 
     def solid(self, region: BaseGeometry, low_m: float, high_m: float) -> Entity:
         """A shape: a region drawn out between two heights."""
-        items = [self._extruded(piece, low_m, high_m) for piece in pieces_of(region)]
-        return self._shape("SweptSolid", items)
+        return self.solids([(region, low_m, high_m)])
+
+    def solids(
+        self, pieces: Sequence[tuple[BaseGeometry, float, float]], identifier: str = "Body"
+    ) -> Entity:
+        """A shape of regions, each drawn out between two heights."""
+        items = [
+            self._extruded(piece, low_m, high_m)
+            for region, low_m, high_m in pieces
+            for piece in pieces_of(region)
+        ]
+        return self._shape("SweptSolid", items, identifier)
 
     def mesh(self, points: NDArray[np.float64], triangles: NDArray[np.int64]) -> Entity:
         """A shape: triangles. points: (n, 3). triangles: (m, 3)."""
@@ -191,8 +202,8 @@ class _Model:
     def _axes(self, at: tuple[float, float, float]) -> Entity:
         return self.make("IfcAxis2Placement3D", self.make("IfcCartesianPoint", at))
 
-    def _shape(self, kind: str, items: list[Entity]) -> Entity:
-        shape = self.make("IfcShapeRepresentation", self.body, "Body", kind, items)
+    def _shape(self, kind: str, items: list[Entity], identifier: str = "Body") -> Entity:
+        shape = self.make("IfcShapeRepresentation", self.body, identifier, kind, items)
         return self.make("IfcProductDefinitionShape", Representations=[shape])
 
     def _extruded(self, piece: Polygon, low_m: float, high_m: float) -> Entity:
@@ -273,7 +284,8 @@ def _walls(model: _Model, space: Space, height: float, place: Entity) -> dict[st
             PredefinedType="SOLIDWALL" if wall.outer else "PARTITIONING",
         )  # fmt: skip
         if region.area > 1e-6:
-            found[name].Representation = model.solid(region, 0.0, height)
+            holes = [hole for hole in space.holes if hole.line.wall.id == name]
+            found[name].Representation = model.solids(cut_pieces(region, holes, height))
     return found
 
 
@@ -281,7 +293,9 @@ def _opening(model: _Model, hole: Hole, wall: Entity, storey: str, place: Entity
     """The void in the wall, and the door or window that fills it; None for a gap."""
     name = f"{storey} {hole.opening.id}"
     void = model.product("IfcOpeningElement", f"{name} opening", place, PredefinedType="OPENING")
-    void.Representation = model.solid(hole.outline, max(hole.low_m, 0.0), hole.high_m)
+    # The wall is cut already: this tells where, and is none of what is drawn.
+    void.Representation = model.solids([(hole.outline, max(hole.low_m, 0.0), hole.high_m)],
+        identifier="Reference")  # fmt: skip
     model.rooted(
         "IfcRelVoidsElement", f"{name} void",
         RelatingBuildingElement=wall, RelatedOpeningElement=void,

@@ -58,14 +58,7 @@ class Describer:
             layers = self.model.make(
                 "IfcMaterialLayerSet", MaterialLayers=[layer], LayerSetName=_wall_name(*key)
             )
-            usage = self.model.make(
-                "IfcMaterialLayerSetUsage",
-                ForLayerSet=layers,
-                LayerSetDirection="AXIS2",
-                DirectionSense="POSITIVE",
-                OffsetFromReferenceLine=-key[1] / 2.0,
-            )
-            self._layers[key] = (usage, [])
+            self._layers[key] = (layers, [])
         self._layers[key][1].append(wall)
         self._coloured(wall, kind)
 
@@ -132,8 +125,8 @@ class Describer:
         """The relations to materials and types, one for all that share one."""
         for kind, members in self._members.items():
             self._associated(f"{kind} material", members, self._materials[kind])
-        for (kind, thickness_m), (usage, walls) in self._layers.items():
-            self._associated(f"{_wall_name(kind, thickness_m)} layers", walls, usage)
+        for (kind, thickness_m), (layers, walls) in self._layers.items():
+            self._associated(f"{_wall_name(kind, thickness_m)} layers", walls, layers)
         for names, members in self._sets.items():
             self._associated(f"{', '.join(names)} materials", members, self._constituents(names))
         for name, (kind, members) in self._types.items():
