@@ -1,7 +1,7 @@
 """Which wall of an existing building a front is put on: an edge of a polygon in a file of lots.
 
-Read is what `veduta grammar` reads lots from. The body is a box behind the edge, as deep as the
-footprint is there in the mean.
+Read is what `veduta grammar` reads lots from, and a model of a building in glTF. The body is a box
+behind the edge, as deep as the footprint is there in the mean.
 """
 
 from __future__ import annotations
@@ -13,11 +13,13 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from veduta.facade.model_walls import SUFFIXES, read_model_lots
 from veduta.facade.options import FacadeOptions, OntoOptions
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.facade.wall import Vector, Wall, facing
 from veduta.grammar.lot import Lot
 from veduta.grammar.lots import Lots, read_lots
+from veduta.grammar.options import LotOptions
 from veduta.run.errors import InputError
 
 MOST_NAMED = 12
@@ -35,10 +37,10 @@ def on_wall(options: FacadeOptions) -> FacadeOptions:
     where there is no such wall.
     """
     if options.onto.onto is None:
-        for name, value in (("--edge", options.onto.edge), ("--lot", options.onto.lot)):
+        for name, value in options.onto.model_dump(exclude_defaults=True).items():
             if value is not None:
                 raise InputError(
-                    f"{name} {value}",
+                    f"--{name} {value}",
                     "is of a footprint, and none is named",
                     "Name its file with --onto, or leave it out.",
                 )
@@ -54,7 +56,7 @@ def on_wall(options: FacadeOptions) -> FacadeOptions:
 
 def read_wall(path: Path, options: OntoOptions) -> Wall:
     """The wall that is asked for, or the one that most looks like a front."""
-    with contextlib.closing(read_lots(path)) as lots:
+    with contextlib.closing(_lots(path, options)) as lots:
         lot = _lot(path, lots, options.lot)
     ring = lot.rings_m[0]
     edge, chosen = _edge(path, lot, options.edge)
@@ -90,6 +92,18 @@ def read_wall(path: Path, options: OntoOptions) -> Wall:
         origin_m=lots.origin_m,
         chosen=chosen,
     )
+
+
+def _lots(path: Path, options: OntoOptions) -> Lots:
+    """The polygons of a file of lots, or the outlines of a model's walls."""
+    told = options.model_dump(include=set(LotOptions.model_fields), exclude_defaults=True)
+    if path.suffix.lower() not in SUFFIXES:
+        return read_lots(path, LotOptions.model_validate(told))
+    if told:
+        raise InputError(
+            f"--{next(iter(told))}", f"is of files of lots, and {path} is a model", "Leave it out."
+        )
+    return read_model_lots(path)
 
 
 def _lot(path: Path, lots: Lots, asked: str | None) -> Lot:

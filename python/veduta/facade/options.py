@@ -113,8 +113,8 @@ class OntoOptions(Options):
     onto: Path | None = Field(
         default=None,
         description=(
-            "footprint of an existing building, a file that `veduta grammar` reads lots from:"
-            " the front is put on one of its walls"
+            "footprint of an existing building, a file that `veduta grammar` reads lots from, or a"
+            " model of it in glTF (.glb): the front is put on one of its walls"
         ),
     )
     edge: Annotated[int, Field(ge=0)] | None = Field(
@@ -126,6 +126,22 @@ class OntoOptions(Options):
     )
     lot: str | None = Field(
         default=None, description="name of the footprint, where the file has several"
+    )
+    layer: str | None = Field(
+        default=None, description="layer of the footprint's file, where it has several of polygons"
+    )
+    crs: str | None = Field(
+        default=None,
+        description="CRS of the footprint's file, such as EPSG:2154: instead of what it says",
+    )
+    up: Literal["y", "z"] = Field(
+        default="y", description="the axis of a footprint in OBJ that points up"
+    )
+    roads: Path | None = Field(
+        default=None, description="file of road lines, which say which wall is on the street"
+    )
+    terrain: Path | None = Field(
+        default=None, description="GeoTIFF of heights that the footprint stands on, in its CRS"
     )
 
 

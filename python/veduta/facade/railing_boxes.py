@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -93,6 +94,7 @@ def _rows_of(
 def _foot(upright: Float, top: int, bottom: int, p: RailingParameters) -> float | None:
     """The row at which the bars of a railing end; None where they reach to the bottom.
 
+    It is the first gap of two rows: below the slab, consoles have upright edges again.
     upright: (h, w) the strength of upright edges in the columns of a box.
     """
     rows = upright[max(0, top) : bottom].mean(axis=1, dtype=np.float64)
@@ -100,6 +102,7 @@ def _foot(upright: Float, top: int, bottom: int, p: RailingParameters) -> float 
         return None
     profile = cv2.blur(rows.reshape(-1, 1), (1, 3)).ravel()
     usual = float(np.median(profile[: max(3, round(p.upper * len(rows)))]))
-    bars = np.flatnonzero(profile >= p.upright * usual)
-    end = int(bars[-1]) + 1 if len(bars) else 0
-    return max(0, top) + end if p.shortest * len(rows) < end < len(rows) else None
+    first = int(p.shortest * len(rows)) + 1
+    gaps = np.flatnonzero(profile[first:] < p.upright * usual)
+    slab = [a for a, b in pairwise(gaps.tolist()) if b == a + 1]
+    return max(0, top) + first + slab[0] if slab else None

@@ -9,10 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
+import trimesh
 from drawn_facade import draw_facade
 from numpy.typing import NDArray
 from PIL import Image
 
+import veduta
 from veduta.facade.batch import run_call
 from veduta.facade.footprint import on_wall, read_wall
 from veduta.facade.load import DOCUMENT
@@ -262,3 +265,83 @@ def test_a_photo_becomes_a_building_on_the_wall(tmp_path: Path) -> None:
     lots(path, far(COURT), crs="EPSG:25832")
     with pytest.raises(InputError, match="other"):
         run_call([photo], out, options, QUIET, jobs=1)
+
+
+RECESSED = """version "1.0"
+Lot --> extrude(world.up, 9) comp(f) { side : Side | all : Wall. }
+Side --> split(y) { 1 : Wall. | { 1.6 : Row | 1.4 : Wall. }* }
+Row --> split(x) { ~0.8 : Wall. | { 1.2 : Hole | ~0.8 : Wall. }* }
+Hole --> t(0, 0, -0.3) Pane.
+"""
+
+
+def model_of(path: Path, how: str) -> Path:
+    """The turned house: of rules whose windows lie back, or of another program with wide eaves."""
+    if how == "rules":
+        rules = path / "recessed.cga"
+        rules.write_text(RECESSED, encoding="utf-8")
+        veduta.derive(rules, lots(path / "lot.geojson", HOUSE), path / "out")
+        return next((path / "out" / "parts").rglob("*.glb"))
+    body = trimesh.creation.extrude_polygon(shapely.Polygon(HOUSE), 8.0)
+    eaves = trimesh.creation.extrude_polygon(
+        shapely.Polygon(HOUSE).buffer(0.6, join_style="mitre"), 0.3
+    )
+    shed = trimesh.creation.box((3.0, 3.0, 2.5), np.eye(4))
+    eaves.apply_translation((0, 0, 8.0))
+    shed.apply_translation((40.0, 0, 1.25))
+    up_along_y = [[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]]
+    for one in (body, eaves, shed):
+        one.apply_transform(up_along_y)
+    return written(path / "other.glb", body, eaves, shed)
+
+
+def written(path: Path, *meshes: trimesh.Trimesh) -> Path:
+    data = trimesh.Scene(meshes).export(file_type="glb")  # type: ignore[no-untyped-call]
+    path.write_bytes(data)
+    return path
+
+
+@pytest.mark.parametrize("how", ["rules", "another program"])
+def test_the_walls_of_a_model_are_found_behind_its_windows_and_below_its_eaves(
+    tmp_path: Path, how: str
+) -> None:
+    model = model_of(tmp_path, how)
+    lot = "1" if how == "another program" else None
+    due = {round(math.dist(a, b), 1) for a, b in zip(HOUSE, HOUSE[1:] + HOUSE[:1], strict=True)}
+    walls = [read_wall(model, OntoOptions(lot=lot, edge=edge)) for edge in range(4)]
+    assert {round(wall.width_m, 1) for wall in walls} == due
+    longest = read_wall(model, OntoOptions(lot=lot))
+    assert longest.width_m == pytest.approx(math.dist(HOUSE[0], HOUSE[1]), abs=0.05)
+    assert longest.depth_m == pytest.approx(math.dist(HOUSE[1], HOUSE[2]), abs=0.05)
+    for corner in (longest.start_m, longest.end_m):
+        if how == "another program":
+            assert min(math.dist(corner[:2], due_at) for due_at in HOUSE) < 0.05
+    assert longest.start_m[2] == pytest.approx(0.0, abs=1e-3)
+    with pytest.raises(InputError, match="has 4 edges"):
+        read_wall(model, OntoOptions(lot=lot, edge=4))
+
+
+def test_a_model_without_walls_and_a_text_one_are_refused(tmp_path: Path) -> None:
+    flat = trimesh.Trimesh([(0, 0, 0), (9, 0, 0), (0, 0, 9)], [(0, 1, 2)])
+    written(tmp_path / "flat.glb", flat)
+    with pytest.raises(InputError, match="no closed wall"):
+        read_wall(tmp_path / "flat.glb", OntoOptions())
+    (tmp_path / "text.gltf").write_text("{}")
+    with pytest.raises(InputError, match=r"binary glTF \(.glb\)"):
+        read_wall(tmp_path / "text.gltf", OntoOptions())
+    with pytest.raises(InputError, match="is of files of lots"):
+        read_wall(tmp_path / "flat.glb", OntoOptions(crs="EPSG:2154"))
+
+
+def test_roads_of_another_file_say_which_wall_is_on_the_street(tmp_path: Path) -> None:
+    path = lots(tmp_path / "lot.geojson", far(HOUSE))
+    street = [far([(-8, 8), (10, 19)])]
+    roads = lots(tmp_path / "roads.geojson", crs="EPSG:25832", roads=street)
+    asked = OntoOptions(crs="EPSG:25832", roads=roads)
+    wall = read_wall(path, asked)
+    assert wall.crs == "EPSG:25832"
+    assert "on the street" in wall.chosen
+    middle = 0.5 * (np.array(wall.start_m[:2]) + wall.end_m[:2]) + wall.origin_m[:2]
+    assert middle == pytest.approx((FAR[0] + 3.0, FAR[1] + 11.5), abs=0.1)
+    with pytest.raises(InputError, match="--roads"):
+        on_wall(FacadeOptions(onto=OntoOptions(roads=roads)))

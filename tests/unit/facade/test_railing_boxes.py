@@ -54,6 +54,18 @@ def test_a_box_that_has_the_slab_ends_with_the_bars() -> None:
     assert (found.x0, found.x1) == (20, 180)
 
 
+def test_consoles_below_the_slab_are_no_bars_of_the_railing() -> None:
+    """They have upright edges as strong as the bars', and more of them."""
+    pixels = np.full((*SIZE, 3), 200, np.uint8)
+    pixels[60:80, 20:180:4] = 30
+    pixels[60:80, 21:180:4] = 30
+    pixels[92:112, 20:180:3] = 20
+    given = SeenElement("balcony", 20, 58, 180, 112, 0.9)
+    seen = seen_where("balcony", SIZE, (slice(58, 112), slice(20, 180)))
+    (found,) = on_railings([given], seen, evidence_of(pixels))
+    assert found.y1 == pytest.approx(80, abs=3)
+
+
 def test_a_box_that_begins_too_high_begins_with_its_pixels() -> None:
     found = railing((68.0, 110.0), slice(80, 110))
     assert found.y0 == pytest.approx(80, abs=1)
