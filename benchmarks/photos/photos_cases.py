@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import shutil
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -96,17 +97,18 @@ def _sexagesimal(degrees: float) -> tuple[float, float, float]:
 
 def itowns(out: Path, *, with_gps: bool) -> Row:
     """The street laid into its model, or not."""
-    with tempfile.TemporaryDirectory() as folder:
-        given = street(Path(folder), with_gps=with_gps)
-        options = PhotosOptions(world=ModelOptions(model=given.model, crs="EPSG:2154"))
-        given_cameras = Given(from_colmap=DATA / "itowns" / "sparse0")
-        result = run_photos(given.photos, out, options, Progress(quiet=True), given=given_cameras)
-        edges = outline_edges(json.loads(given.model.read_text()))
-    place = read_place(out / "place.json")
+    folder = out.with_name(f"{out.name}-given")
+    shutil.rmtree(folder, ignore_errors=True)
+    given = street(folder, with_gps=with_gps)
+    options = PhotosOptions(world=ModelOptions(model=given.model, crs="EPSG:2154"))
+    cameras = Given(from_colmap=DATA / "itowns" / "sparse0")
+    run_photos(given.photos, out, options, Progress(quiet=True), given=cameras, force=True)
+    edges = outline_edges(json.loads(given.model.read_text()))
+    place, measures = read_place(out / "place.json"), report_of(out)["measures"]
     told: dict[str, Any] = {
         "case": f"itowns {'with' if with_gps else 'without'} GPS",
-        "laid by": result.measures["georeferenced"] or "refused",
-        "textured faces": result.measures.get("faces_textured", 0),
+        "laid by": measures["georeferenced"] or "refused",
+        "faces textured": measures.get("faces_textured", 0),
     }
     if place.crs is None:
         return told
@@ -121,6 +123,12 @@ def itowns(out: Path, *, with_gps: bool) -> Row:
         "within 0.25 m": sum(one <= NEAR_M for one in off),
         "nearest four, m": ", ".join(f"{one:.2f}" for one in off[:4]),
     }
+
+
+def report_of(out: Path) -> dict[str, Any]:
+    """What the run says of itself; also of one that was done before."""
+    report: dict[str, Any] = json.loads((out / "report.json").read_text())
+    return report
 
 
 def outline_edges(outlines: dict[str, Any]) -> list[Floats]:
@@ -151,13 +159,14 @@ def wall_distance_m(wall: dict[str, Any], edges: list[Floats], origin_m: Floats)
 
 def camera_choice(out: Path) -> Row:
     """Which share of a run on seven photos goes into choosing the kind of camera."""
-    result = run_photos(DATA / "fountain7", out, PhotosOptions(), Progress(quiet=True))
-    steps = json.loads((out / "report.json").read_text())["steps"]
-    seconds = {step["name"]: step["seconds"] for step in steps}
+    run_photos(DATA / "fountain7", out, PhotosOptions(), Progress(quiet=True), force=True)
+    report = report_of(out)
+    seconds = {step["name"]: step["seconds"] for step in report["steps"]}
+    measures = report["measures"]
     share = seconds["cameras"] / sum(seconds.values())
     return {
         "case": "fountain7",
-        "placed": f"{result.measures['calibrated']} of {result.measures['photos']}",
+        "placed": f"{measures['calibrated']} of {measures['photos']}",
         "choice of cameras, share of the run": share,
     }
 
