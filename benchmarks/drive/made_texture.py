@@ -9,7 +9,6 @@ that looks at it most squarely, from its true place. Windows are those that the 
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -20,22 +19,17 @@ import cv2
 import numpy as np
 from derived_houses import derived_house
 from numpy.typing import NDArray
-from record import keep_or_print
 from synthetic_texture import (
     AROUND,
     CAMERA,
-    FIRST_UNSEEN,
-    HOLES_NOTE,
     MOST_SEEN,
     ON_FRONT_M,
     Mask,
     Pane,
     Truth,
-    kept_rows,
-    masks_note,
+    keep_streets,
     measured,
     places_of,
-    summed,
 )
 
 from veduta.drive.build.segment import Textured
@@ -202,23 +196,19 @@ def one_seed(folder: Path, seed: int) -> dict[str, Any]:
     return measured(folder, lambda one: truth_of(folder, street, one))
 
 
-def main() -> None:
-    """Measure, print and keep."""
-    folder = Path(sys.argv[1])
-    seeds = int(sys.argv[2]) if len(sys.argv) > 2 else 6
-    first = int(sys.argv[3]) if len(sys.argv) > 3 else FIRST_UNSEEN
-    told = kept_rows(folder, range(first, first + seeds), one_seed)
-    rows = summed([row for one in told for row in one["rows"]])
-    notes = [
+def _notes(seeds: int, first: int) -> list[str]:
+    return [
         f"{seeds} streets of {LENGTH_M:.0f} m of houses by the facade generator and by rules, seeds"
         f" from {first} on, which choose nothing; images of {CAMERA.width_px} x"
         f" {CAMERA.height_px} px every {CAMERA.spacing_m} m, under an overcast sky.",
-        HOLES_NOTE,
         "The truth of a texel: the squarest image without cars, trees and lamps; windows, doors and"
         " shops by the houses' own classes.",
-        masks_note(told),
     ]
-    keep_or_print("drive-made-texture", rows, notes, first >= FIRST_UNSEEN)
+
+
+def main() -> None:
+    """Measure, print and keep."""
+    keep_streets("drive-made-texture", one_seed, _notes)
 
 
 if __name__ == "__main__":

@@ -364,21 +364,34 @@ def masks_note(told: list[dict[str, Any]]) -> str:
     )
 
 
-def main() -> None:
-    """Measure, print and keep."""
+def keep_streets(
+    benchmark: str,
+    one: Callable[[Path, int], dict[str, Any]],
+    notes: Callable[[int, int], list[str]],
+) -> None:
+    """Measure the streets that the call names, print and keep. notes: of so many seeds, and the
+    first of them.
+    """
     folder = Path(sys.argv[1])
     seeds = int(sys.argv[2]) if len(sys.argv) > 2 else 6
     first = int(sys.argv[3]) if len(sys.argv) > 3 else FIRST_UNSEEN
-    told = kept_rows(folder, range(first, first + seeds), one_seed)
-    rows = summed([row for one in told for row in one["rows"]])
-    notes = [
+    told = kept_rows(folder, range(first, first + seeds), one)
+    rows = summed([row for street in told for row in street["rows"]])
+    all_notes = [*notes(seeds, first), HOLES_NOTE, masks_note(told)]
+    keep_or_print(benchmark, rows, all_notes, first >= FIRST_UNSEEN)
+
+
+def _notes(seeds: int, first: int) -> list[str]:
+    return [
         f"{seeds} streets of {STREET.length_m:.0f} m, seeds from {first} on, trees right before"
         f" walls; images of 1024 x 768 px every {CAMERA.spacing_m} m, times off by"
-        f" {1000 * CAMERA.jitter_s:.0f} ms (standard deviation).",
-        HOLES_NOTE,
-        masks_note(told),
+        f" {1000 * CAMERA.jitter_s:.0f} ms (standard deviation)."
     ]
-    keep_or_print("drive-synthetic-texture", rows, notes, first >= FIRST_UNSEEN)
+
+
+def main() -> None:
+    """Measure, print and keep."""
+    keep_streets("drive-synthetic-texture", one_seed, _notes)
 
 
 def summed(rows: list[Row]) -> list[Row]:
