@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import shapely
 
+from veduta.geometry.crs import epsg_named
 from veduta.grammar.outline import Found, Road
 from veduta.grammar.roads import road_of
 from veduta.grammar.vector_read import OSM, REMEDY, blocks, plain, required_epsg, tags, unreadable
@@ -25,8 +26,11 @@ _ROADS = re.compile(
 _OTHERS = re.compile(r"rail|water|contour|power|pipe|bord|fence|zaun|boundar", re.IGNORECASE)
 
 
-def road_lines(path: Path) -> tuple[list[Road], int | None]:
-    """The roads of all layers of lines of a file, and the EPSG code of its CRS."""
+def road_lines(path: Path, settled: int | None = None) -> tuple[list[Road], int | None]:
+    """The roads of all layers of lines of a file, and the EPSG code of its CRS.
+
+    settled: the code that is taken where its CRS has none.
+    """
     layers = limited(line_layers, path, path, REMEDY)
     crs = list(dict.fromkeys(own for _, own in layers))
     if len(crs) > 1:
@@ -35,8 +39,12 @@ def road_lines(path: Path) -> tuple[list[Road], int | None]:
     roads = [road for name, _ in layers for road in roads_of_layer(path, name)]
     if not roads:
         raise InputError(path, "has no lines that are roads", "Give it lines of roads.")
-    remedy = "Save the roads in a CRS that has one."
-    return roads, required_epsg(path, crs[0], remedy) if crs and crs[0] is not None else None
+    if not crs or crs[0] is None:
+        return roads, None
+    if settled is not None and epsg_named(crs[0]) is None:
+        return roads, settled
+    remedy = "Save the roads in a CRS that has one, or give --crs where they and the lots share it."
+    return roads, required_epsg(path, crs[0], remedy)
 
 
 def add_roads_beside(path: Path, layer: str, crs: str | None, found: Found) -> None:

@@ -181,7 +181,8 @@ def _outlines_of(path: Path, options: LotOptions, found: Found, folder: Path | N
         return package_outlines(path, options.layer, found)
     suffix = path.suffix.lower()
     if suffix == ".gpkg":
-        raise InputError(path, "is no GeoPackage, though its name says so", "Save it anew as one.")
+        remedy = "Fetch or export it again: its first bytes are not those of a database."
+        raise InputError(path, "is no GeoPackage, though its name says so", remedy)
     if suffix in VECTORS:
         return vector_outlines(path, options.layer, found)
     if options.layer is not None:

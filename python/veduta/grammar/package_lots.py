@@ -65,9 +65,17 @@ def package_outlines(path: Path, layer_name: str | None, found: Found) -> Outlin
                 add_roads_beside(path, layer.table, crs_of_layer(path, layer.table), found)
             yield from _outlines(path, base, layer, found)
     except (sqlite3.Error, UnicodeError) as error:
-        raise InputError(
-            path, f"cannot be read ({error})", "Save it anew as GeoPackage."
-        ) from error
+        raise _damaged(path, f"cannot be read ({error})") from error
+
+
+def _damaged(path: Path, fault: str) -> InputError:
+    """What a program that reads it cannot save anew."""
+    own, new = path.name, f"{path.stem}-whole.gpkg"
+    return InputError(
+        path, fault,
+        "It is damaged: fetch or copy it again. What is left of it comes out of"
+        f" `sqlite3 {own} .recover | sqlite3 {new}`.",
+    )  # fmt: skip
 
 
 def _opened(path: Path) -> sqlite3.Connection:
@@ -89,7 +97,8 @@ def _bound_time(base: sqlite3.Connection) -> None:
 def _layer(path: Path, base: sqlite3.Connection, wanted: str | None) -> _Layer:
     tables = {row[0] for row in base.execute("SELECT name FROM sqlite_master WHERE type='table'")}
     if "gpkg_geometry_columns" not in tables:
-        raise InputError(path, "is a database, but no GeoPackage", "Save it as GeoPackage.")
+        remedy = f"If it is one of SpatiaLite, `ogr2ogr -f GPKG lots.gpkg {path.name}` converts it."
+        raise InputError(path, "is a database, but no GeoPackage", remedy)
     rows = base.execute(
         "SELECT table_name, column_name, geometry_type_name, srs_id FROM gpkg_geometry_columns"
     )
@@ -193,8 +202,7 @@ def _rows(
                 yield f"a cell is larger than {MAX_CELL_BYTES >> 20} MB"
             last = row[0]
     except sqlite3.DatabaseError as error:
-        told = f"cannot be read after row {number} ({error})"
-        raise InputError(path, told, "Save it anew as GeoPackage.") from error
+        raise _damaged(path, f"cannot be read after row {number} ({error})") from error
 
 
 def _polygons(geometry: object) -> tuple[list[Any] | None, str]:

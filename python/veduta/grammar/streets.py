@@ -31,7 +31,7 @@ def roads_among(path: Path | None, found: Found, frame: Frame) -> Roads:
             require_file(path)
         except FileNotFoundError as error:
             raise InputError(path, "does not exist", "Check its name.") from error
-        others, epsg = road_lines(path)
+        others, epsg = road_lines(path, found.epsg if found.is_settled else None)
         wanted = DEGREES if found.epsg is None and frame.zone is not None else found.epsg
         roads += [_in_crs(path, road, epsg, wanted) for road in others]
     placed = []

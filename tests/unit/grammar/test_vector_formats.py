@@ -154,6 +154,18 @@ def test_roads_of_another_layer_in_another_crs_are_told(tmp_path: Path) -> None:
     assert any("--roads" in note for note in found.notes)
 
 
+def test_the_call_settles_roads_without_a_code_too(tmp_path: Path) -> None:
+    lots = write(tmp_path / "odd.gpkg", "GPKG", crs=ODD)
+    roads = write(tmp_path / "roads.gpkg", "GPKG", (STREET,), crs=ODD, geometry_type="LineString")
+    found = read_lots(lots, LotOptions(crs="EPSG:2154", roads=roads))
+    (road,) = found.roads
+    north = 5_500_020 - 5_500_000
+    assert road.points[:, 1].tolist() == pytest.approx([north, north])
+    known = write(tmp_path / "known.gpkg", "GPKG")
+    with pytest.raises(InputError, match=r"roads\.gpkg.*without EPSG code.*--crs"):
+        read_lots(known, LotOptions(roads=roads))
+
+
 @pytest.mark.parametrize(
     ("name", "content", "told"),
     [
