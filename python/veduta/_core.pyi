@@ -545,10 +545,13 @@ class AssetWanted(GrammarFault): ...
 
 class GrammarRules:
     """Checked rule files, ready to derive."""
-    def __new__(cls, files: Sequence[tuple[str, str]], style: str | None = None) -> GrammarRules:
+    def __new__(
+        cls, files: Sequence[tuple[str, str]], style: str | None = None, start: str | None = None
+    ) -> GrammarRules:
         """`files` are name and text of each file, the main one first; the others are what it may
         import, under the names in its import statements.
-        `style` is one of the main file's; `Default` where it is None.
+        `style` is one of the main file's; `Default` where it is None. `start`: the rule that is
+        derived with, where it is known; faults of rules that it does not reach are no faults.
         """
     def __repr__(self) -> str: ...
     @property
@@ -569,6 +572,9 @@ class GrammarRules:
     @property
     def notes(self) -> str:
         """What is built otherwise than the rules say, with its places; empty where nothing is."""
+    @property
+    def unreached(self) -> str:
+        """What would be a fault where the start rule reached it, with its places."""
     @property
     def asks_place(self) -> bool:
         """Whether they ask where shapes lie on Earth."""
@@ -857,7 +863,9 @@ def roof_solid(
 def grammar_imports(text: str) -> list[str]:
     """The paths that the import statements of a text name, as they stand there."""
 
-def grammar_check(files: Sequence[tuple[str, str]]) -> tuple[str, int, int, str]: ...
+def grammar_check(
+    files: Sequence[tuple[str, str]], start: str | None = None
+) -> tuple[str, int, int, str]: ...
 def grammar_format(name: str, text: str) -> str:
     """The text of a rule file in the house style; GrammarFault where it does not parse."""
 
@@ -1062,7 +1070,8 @@ class TileBuffers:
     @property
     def triangles(self) -> int: ...
     @property
-    def dropped(self) -> int: ...
+    def dropped(self) -> dict[str, int]:
+        """How many surfaces of each rule are none: too thin, or their lines cross."""
     @property
     def materials(self) -> list[tuple[int, int, list[float], float, int | None]]:
         """Class, provenance, sRGB colour, opacity and number of the texture of each material."""

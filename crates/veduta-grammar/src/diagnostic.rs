@@ -1,6 +1,7 @@
 //! What is wrong with a rule file, said so that its author finds the place and the remedy.
 
 use std::fmt::Write;
+use std::ops::Range;
 
 use crate::limits::MAX_DIAGNOSTICS;
 use crate::{Position, Source, Span};
@@ -114,6 +115,24 @@ impl Diagnostics {
 
     pub fn error(&mut self, span: Span, message: impl Into<String>) {
         self.add(Diagnostic::error(span, message));
+    }
+
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Makes warnings of the errors among some, in the order in which they were added, and says
+    /// why; each as it was and as it is.
+    pub fn soften(&mut self, some: Range<usize>, why: &str) -> Vec<(Diagnostic, Diagnostic)> {
+        let some = self.list.get_mut(some).unwrap_or_default();
+        let errors = some.iter_mut().filter(|one| one.is_error());
+        let softened = errors.map(|one| {
+            let before = one.clone();
+            one.severity = Severity::Warning;
+            one.message = format!("{}; {why}", one.message);
+            (before, one.clone())
+        });
+        softened.collect()
     }
 
     pub fn is_full(&self) -> bool {

@@ -24,7 +24,7 @@ mod suggest;
 pub mod token;
 
 pub use check::{
-    check, Checked, Definition, Definitions, Resolution, Role, Style, Target, Variant,
+    check, check_from, Checked, Definition, Definitions, Resolution, Role, Style, Target, Variant,
 };
 pub use diagnostic::{Diagnostic, Severity};
 pub use format::format;

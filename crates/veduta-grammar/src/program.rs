@@ -21,6 +21,8 @@ pub struct Unit {
     pub parse: Parse,
     /// In the order of the import statements.
     pub imports: Vec<Link>,
+    /// Imports that could not be had, by their place in `imports`, and why.
+    pub missing: Vec<(usize, Diagnostic)>,
 }
 
 /// An import statement and the file that it names.
@@ -65,6 +67,7 @@ impl Program {
             source,
             parse,
             imports: Vec::new(),
+            missing: Vec::new(),
         });
     }
 
@@ -91,7 +94,8 @@ impl Program {
             let target = found.unwrap_or_else(|reason| {
                 let message = format!("cannot import `{}`: {reason}", import.path.value);
                 let fault = Diagnostic::error(import.path.span, message);
-                self.units[unit].parse.diagnostics.push(fault);
+                let at = self.units[unit].imports.len();
+                self.units[unit].missing.push((at, fault));
                 None
             });
             self.units[unit].imports.push(Link {

@@ -368,3 +368,42 @@ fn files_that_import_each_other() {
     let messages: Vec<&str> = messages.map(|one| one.message.as_str()).collect();
     assert_eq!(messages, ["this import leads back to this file"; 2]);
 }
+
+#[test]
+fn what_nothing_reaches_refuses_nothing() {
+    compare(&[
+        ("Lot --> A.\nOld --> boxx(3)", &[
+            "2:1 warning: nothing calls the rule `Old`",
+            "2:9 warning: there is no operation or rule `boxx`; nothing reaches this rule",
+        ]),
+        ("Lot --> A.\nOld --> Older\nOlder --> s(1)", &[
+            "2:1 warning: nothing calls the rule `Old`",
+            "3:11 warning: `s` takes 3 arguments, 1 is given; nothing reaches this rule",
+        ]),
+        ("Lot --> case 1 > 2 : New else : A.\nNew --> boxx(3)", &["2:9 error: there is no operation or rule `boxx`"]),
+        ("Lot --> A.\n@StartRule\nOld --> boxx(3)", &["3:9 error: there is no operation or rule `boxx`"]),
+        ("import a : \"none.cga\"\nLot --> A.\nOld --> a.B extrude(a.c)", &[
+            "1:12 warning: cannot import `none.cga`: there is no such file; nothing that is reached uses it",
+        ]),
+        ("import a : \"none.cga\"\nattr h = a.height\nLot --> A.", &["1:12 error: cannot import `none.cga`: there is no such file"]),
+        ("import l : \"lib.cga\"\nLot --> A.\nl.Roof(a) --> Old\nOld --> boxx(3)", &["4:9 error: there is no operation or rule `boxx`"]),
+    ]);
+}
+
+#[test]
+fn a_broken_rule_stops_the_derivation_that_reaches_it() {
+    use veduta_grammar::engine::{derive, lower, Options};
+    let text = "Lot --> A.\nOld --> Older\nOlder --> extrud(3) B.";
+    let program = Program::single(Source::new("a", text));
+    let checked = check(&program);
+    assert!(!checked.has_errors());
+    let code = lower(&program, &checked).code;
+    let from = |name: &str| {
+        let rule = code.rule_named(name).expect("the rule is there");
+        derive(&code, rule, crate::support::lot(), &Options::default())
+    };
+    assert_eq!(from("Lot").map(|tree| tree.nodes.len()), Ok(2));
+    let fault = from("Old").expect_err("it cannot be derived");
+    let wanted = "there is no operation or rule `extrud`: did you mean `extrude`?";
+    assert_eq!((fault.message.as_str(), fault.span.start), (wanted, 35));
+}

@@ -11,7 +11,7 @@ use veduta_grammar::engine::{
     asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Files as FileTable,
     Limits, Options, State,
 };
-use veduta_grammar::{check, Checked, Program, Source, Style};
+use veduta_grammar::{check_from, Checked, Program, Source, Style};
 
 use crate::assets::{
     asset_of, labels_of, pairs, Assets, GivenLabels, GivenSlots, MissingAsset, Textures,
@@ -42,6 +42,8 @@ pub struct GrammarRules {
     files: RwLock<Arc<FileTable>>,
     /// What is built otherwise than the rules say, as text; empty where nothing is.
     notes: String,
+    /// What would be a fault where it were reached, as text; empty where nothing is.
+    unreached: String,
     textures: RwLock<Arc<Textures>>,
     styles: Vec<String>,
 }
@@ -50,11 +52,17 @@ pub struct GrammarRules {
 impl GrammarRules {
     /// `files` are name and text of each file, the main one first; the others are what it may
     /// import, under the names in its import statements.
-    /// `style` is one of the main file's; `Default` where it is None.
+    /// `style` is one of the main file's; `Default` where it is None. `start`: the rule that is
+    /// derived with, where it is known; faults of rules that it does not reach are no faults.
     #[new]
-    #[pyo3(signature = (files, style=None))]
-    fn new(py: Python<'_>, files: Files, style: Option<&str>) -> PyResult<Self> {
-        py.detach(|| read(&files, style))
+    #[pyo3(signature = (files, style=None, start=None))]
+    fn new(
+        py: Python<'_>,
+        files: Files,
+        style: Option<&str>,
+        start: Option<&str>,
+    ) -> PyResult<Self> {
+        py.detach(|| read(&files, style, start))
             .map_err(GrammarFault::new_err)
     }
 
@@ -113,6 +121,12 @@ impl GrammarRules {
     #[getter]
     fn notes(&self) -> String {
         self.notes.clone()
+    }
+
+    /// What would be a fault where the start rule reached it, with its places.
+    #[getter]
+    fn unreached(&self) -> String {
+        self.unreached.clone()
     }
 
     /// Whether they ask where shapes lie on Earth.
@@ -279,10 +293,10 @@ pub struct Failed {
     pub missing_asset: Option<String>,
 }
 
-fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
+fn read(files: &Files, style: Option<&str>, start: Option<&str>) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
     let program = program_of(files).ok_or_else(missing)?;
-    let checked = check(&program);
+    let checked = check_from(&program, start);
     if checked.has_errors() {
         return Err(checked.render(&program));
     }
@@ -295,12 +309,14 @@ fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
         return Err(rendered(&program, &lowered.diagnostics));
     }
     let rendered_notes = rendered(&program, &lowered.diagnostics);
+    let unreached = rendered(&program, &checked.unreached);
     Ok(GrammarRules {
         code: lowered.code,
         sources: program.units.into_iter().map(|unit| unit.source).collect(),
         assets: RwLock::default(),
         files: RwLock::default(),
         notes: rendered_notes,
+        unreached,
         textures: RwLock::default(),
         styles,
     })

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use veduta_grammar::ast::ItemKind;
 use veduta_grammar::engine::{lower, operation_names};
-use veduta_grammar::{check, format, parse, Diagnostic, Names, Program, Severity, Source};
+use veduta_grammar::{check_from, format, parse, Diagnostic, Names, Program, Severity, Source};
 
 use crate::grammar::GrammarFault;
 
@@ -81,10 +81,11 @@ fn grammar_imports(py: Python<'_>, text: &str) -> Vec<String> {
 }
 
 #[pyfunction]
-fn grammar_check(py: Python<'_>, files: Files) -> PyResult<Verdict> {
+#[pyo3(signature = (files, start=None))]
+fn grammar_check(py: Python<'_>, files: Files, start: Option<&str>) -> PyResult<Verdict> {
     let verdict = py.detach(|| {
         let program = program_of(&files)?;
-        let checked = check(&program);
+        let checked = check_from(&program, start);
         let count = |severity: Severity| {
             let all = checked.diagnostics.iter().flatten();
             all.filter(|one| one.severity == severity).count()

@@ -67,9 +67,16 @@ impl TileBuffers {
         self.batch.triangles
     }
 
+    /// How many surfaces of each rule are none: too thin, or their lines cross.
     #[getter]
-    fn dropped(&self) -> usize {
-        self.batch.dropped
+    fn dropped(&self) -> BTreeMap<String, usize> {
+        let mut counts = BTreeMap::new();
+        for feature in &self.batch.dropped {
+            let rule = usize::from(self.surfaces.rule[*feature as usize]);
+            let name = self.surfaces.rules.get(rule).cloned().unwrap_or_default();
+            *counts.entry(name).or_default() += 1;
+        }
+        counts
     }
 
     /// Class, provenance, sRGB colour, opacity and number of the texture of each material.

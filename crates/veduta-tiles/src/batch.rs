@@ -31,8 +31,8 @@ pub struct Batch {
     pub high: [f64; 3],
     /// Triangles that are drawn.
     pub triangles: usize,
-    /// Polygons that are none: too thin, or their lines cross.
-    pub dropped: usize,
+    /// The features of polygons that are none: too thin, or their lines cross.
+    pub dropped: Vec<u32>,
 }
 
 /// Merges buildings and the meshes that stand in them; the same give the same bytes.
@@ -70,8 +70,9 @@ fn batched(
     let grid = Grid::over(low, high);
     (made.grid_low, made.grid_step) = (grid.low.to_array(), grid.step.to_array());
     for (building, cut) in buildings.iter().zip(&cuts) {
-        let sound = cut.triangles.iter().filter(|all| !all.is_empty()).count();
-        made.dropped += building.feature.len() - sound;
+        let cut = building.feature.iter().zip(&cut.triangles);
+        let none = cut.filter(|(_, triangles)| triangles.is_empty());
+        made.dropped.extend(none.map(|(feature, _)| *feature));
     }
     let pieces = pieces(buildings, &cuts, |building| building.piece);
     let uv_steps = steps(buildings, &pieces, standing);

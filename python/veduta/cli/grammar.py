@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 SUMMARY = "Make buildings from rule files (CGA) and lots; check and format rule files"
 ACTIONS = ("check", "format", "derive", "sample", "tree")
 MAX_FAILURES = 20
-HELP = f"""usage: veduta grammar check RULES
+HELP = f"""usage: veduta grammar check RULES [--lots LOTS] [--lot ID] and others of derive
        veduta grammar format RULES... [--write]
        veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--edits FILE]
                              [--seed INT] [--start TEXT] [--style TEXT]
@@ -33,7 +33,8 @@ HELP = f"""usage: veduta grammar check RULES
 
 {SUMMARY}.
 
-  check     Check a rule file and what it imports; every fault is shown with its line
+  check     Check a rule file and what it imports, and try it on one lot; every fault is shown
+            with its line
   format    Lay out rule files in the house style
   derive    Derive a building for each lot of a file (GeoJSON, CityJSON, GeoPackage, OBJ), or for
             a synthetic street
@@ -67,21 +68,33 @@ def run(arguments: list[str]) -> int:
 def _check(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import CheckCall
-    from veduta.grammar.otherwise import otherwise
-    from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules
-    from veduta.grammar.textures import texture_faults
+    from veduta.grammar.given import read_attributes
+    from veduta.grammar.lot_names import read_names
+    from veduta.grammar.one_lot import find_lot
+    from veduta.grammar.options import GrammarOptions, NameOptions
+    from veduta.grammar.rules import check_rules, find_rules, read_rules, with_start
+    from veduta.grammar.trial import tried
     from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
+    options = GrammarOptions(
+        derive=call.derive,
+        limits=call.limits,
+        lots=call.read,
+        attributes=read_attributes(call.attr),
+        names=NameOptions(values=read_names(call.map)),
+    )
     rules = read_rules(find_rules(call.rules), call.project, call.library)
-    verdict = check_rules(rules)
+    rules, start = with_start(rules, call.derive.start)
+    options = options.starting_with(start)
+    verdict = check_rules(rules, start)
     print(verdict.told, end="")
-    faults: list[str] = []
-    told: list[str] = []
+    faults: tuple[str, ...] = ()
+    told: tuple[str, ...] = ()
     if not verdict.errors:
-        faults = texture_faults(text for _, text in rules.files)
+        lot, beside = find_lot(call.lots, call.lot, call.read, call.derive.seed)
+        faults, told = tried(rules, options, lot, beside)
         print("".join(f"error: {fault}\n" for fault in faults), end="")
-        told = [] if faults else otherwise(rules, compile_rules(rules))
         print("".join(f"warning: {one}\n" for one in told), end="")
     errors = verdict.errors + len(faults)
     warnings = verdict.warnings + len(told)

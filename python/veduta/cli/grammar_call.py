@@ -139,12 +139,21 @@ LibraryFolders = Annotated[
 class CheckCall:
     """Check a rule file and what it imports; every fault is shown with its line.
 
+    Rules without faults are derived on one lot, as `derive` would: what fails there is an error.
+
     Exit codes: 0 no errors (warnings are told), 2 errors or a file that cannot be read.
     """
 
     rules: Rules
+    lots: OneLot = None
+    lot: LotName = None
+    attr: Attr = ()
+    map: Names = ()
     project: Project = None
     library: LibraryFolders = ()
+    derive: DeriveOptions = field(default_factory=DeriveOptions)
+    limits: LimitOptions = field(default_factory=LimitOptions)
+    read: LotOptions = field(default_factory=LotOptions)
 
 
 @dataclass(frozen=True)

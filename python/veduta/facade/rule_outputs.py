@@ -10,7 +10,7 @@ from pathlib import Path
 
 from veduta.facade.model import Model
 from veduta.facade.rule_head import CELLS, LOT, RULES
-from veduta.grammar.textures import mask_name
+from veduta.grammar.picture_sources import mask_name
 from veduta.imaging.encode import jpeg_bytes, mask_bytes
 from veduta.place.material import Texture
 

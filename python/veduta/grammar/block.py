@@ -40,6 +40,10 @@ NODE_LOTS = 256
 """Lots of a tile of volumes."""
 MEMORY = 400 * 1024**2
 """Bytes that a block is expected to need."""
+MOST_RULES = 200
+"""Rules whose surfaces that are left out are counted."""
+MOST_MISSING = 1000
+"""Assets with computed names of which it is said that they are missing."""
 NOTHING = "the rules leave nothing on it"
 
 
@@ -90,6 +94,7 @@ class BlockResult:
     reported: list[tuple[str, str, Values]] = field(default_factory=list)
     failures: Failures = field(default_factory=Failures)
     notes: Counter[str] = field(default_factory=Counter)
+    missing: list[str] = field(default_factory=list)
     forms: Counter[str] = field(default_factory=Counter)
     tinted: set[tuple[str, Tint]] = field(default_factory=set)
     steps: list[StepRecord] = field(default_factory=list)
@@ -103,10 +108,11 @@ class BlockResult:
             "polygons": town.polygons,
             "triangles": town.triangles,
             "classes": {kind: count for kind, count in sorted(town.classes.items()) if count},
-            "dropped": town.dropped,
+            "dropped": dict(town.dropped.most_common(MOST_RULES)),
             "pictures": sorted(town.shown),
             "tinted": [[name, list(tint)] for name, tint in sorted(self.tinted)],
             "notes": dict(self.notes.most_common(50)),
+            "missing": self.missing,
             "forms": dict(sorted(self.forms.items())),
             "tabled": any(values for _, _, values in self.reported),
             "reports": as_json(sums_of(values for _, _, values in self.reported)),
@@ -138,6 +144,7 @@ def run_block(job: Job) -> dict[str, Any]:
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)
     reported = table(result.reported)
     result.notes.update(dict.fromkeys(by.library.told_missing(), 1))
+    result.missing = by.library.computed_missing(by.rules)[:MOST_MISSING]
     if beyond := len(by.library.pictures.keys() - job.textures.keys()):
         result.notes[f"{beyond} pictures of assets are shown by their mean colours"] = 1
     with timed_step(result.steps, "write"), writing_to(job.out):

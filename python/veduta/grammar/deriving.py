@@ -142,10 +142,10 @@ class Deriver:
 
 @functools.lru_cache(maxsize=1)
 def _compiled(
-    files: tuple[tuple[str, str], ...], style: str | None, search: SearchPath
+    files: tuple[tuple[str, str], ...], style: str | None, start: str | None, search: SearchPath
 ) -> tuple[_core.GrammarRules, Library]:
     """Compiled once in each process, with the assets and files that the rules name."""
-    rules, library = _core.GrammarRules(list(files), style), Library(search)
+    rules, library = _core.GrammarRules(list(files), style, start), Library(search)
     library.add_written_to(rules)
     project_files(search, rules).add_to(rules)
     return rules, library
@@ -163,7 +163,7 @@ def deriver(
     beside: the lots that stand beside each, by its id, where the rules ask about them. earth: where
     they lie, where the rules ask that.
     """
-    rules, library = _compiled(files, options.derive.style, search)
+    rules, library = _compiled(files, options.derive.style, options.derive.start, search)
     levels = levels_of(rules, options.attributes.values)
     return Deriver(rules, library, levels, options, beside or {}, earth)
 

@@ -32,24 +32,27 @@ def left_out_by_rule(rules: Iterable[str]) -> tuple[LeftOut, ...]:
 
 
 def told_of_all(
-    buildings: Iterable[Mapping[str, int]], dropped: int, files: Sequence[tuple[str, str]]
+    buildings: Iterable[Mapping[str, int]],
+    dropped: Mapping[str, int],
+    files: Sequence[tuple[str, str]],
 ) -> list[str]:
     """For the terminal: each rule with the line that defines it, of all buildings together.
 
     buildings: of each that has a file of its own, how many surfaces of a rule are left out.
-    dropped: surfaces of all buildings; where they have no files nothing says which rules made them.
-    files: names and texts of the rules.
+    dropped: the same of the tiles, which count where no building has a file. files: names and texts
+    of the rules. Of many rules the first ones are named, and the others are counted.
     """
     counts: Counter[str] = Counter()
     for of_lot in buildings:
         counts.update(of_lot)
-    if not counts:
-        return [f"{dropped} surfaces were left out: {_WHY}"] if dropped else []
+    counts = counts or Counter(dropped)
     places = _places(files)
-    return [
-        LeftOut(rule, count).told(places.get(rule, ""))
-        for rule, count in counts.most_common(MOST_TOLD)
-    ]
+    ordered = counts.most_common()
+    told = [LeftOut(rule, count).told(places.get(rule, "")) for rule, count in ordered[:MOST_TOLD]]
+    if len(ordered) > MOST_TOLD:
+        more = sum(count for _, count in ordered[MOST_TOLD:])
+        told.append(f"{more} surfaces of {len(ordered) - MOST_TOLD} more rules were left out")
+    return told
 
 
 def _places(files: Sequence[tuple[str, str]]) -> Mapping[str, str]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from veduta import _core
 from veduta.grammar.assets.library import Library
 from veduta.grammar.rules import RuleFiles
 from veduta.grammar.textures import missing_textures
 from veduta.run.errors import InputError
 
+FIRST_TOLD = 3
 MOST_TOLD = 40
 """Lines about what is missing; a project without its assets misses hundreds."""
 
@@ -24,10 +27,27 @@ def otherwise(rules: RuleFiles, compiled: _core.GrammarRules) -> list[str]:
     return [*told, *missing]
 
 
+def unreached(compiled: _core.GrammarRules) -> list[str]:
+    """What would be a fault of the rules where the start rule reached it: a line each."""
+    return _underived(compiled.unreached)
+
+
 def _underived(notes: str) -> list[str]:
     """The first line of each note: place and message, without the excerpt."""
     lines = [line for line in notes.splitlines() if line and not line.startswith(" ")]
     return [line.replace(": warning: ", ": ", 1) for line in lines]
+
+
+def told_computed(missing: Collection[str]) -> list[str]:
+    """For the terminal: how many assets with computed names are missing, and the first of them."""
+    if not missing:
+        return []
+    first = sorted(missing)[:FIRST_TOLD]
+    more = len(missing) - len(first)
+    count = "1 asset" if len(missing) == 1 else f"{len(missing)} assets"
+    told = [f"{count} of computed names cannot be had: a box stands for each"]
+    told += [f"  {one}" for one in first]
+    return told + ([f"  and {more} more: report.json names them"] if more else [])
 
 
 def _missing_assets(rules: RuleFiles, compiled: _core.GrammarRules) -> list[str]:

@@ -31,7 +31,7 @@ from veduta.grammar.lot import anchors_of
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.on_earth import OnEarth, on_earth
 from veduta.grammar.options import GrammarOptions
-from veduta.grammar.otherwise import otherwise
+from veduta.grammar.otherwise import otherwise, told_computed, unreached
 from veduta.grammar.placing import place_of, placed_how, town_of
 from veduta.grammar.project import SearchPath
 from veduta.grammar.project_files import project_files
@@ -52,7 +52,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "19"
+VERSION = "20"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""
@@ -195,7 +195,7 @@ def _call(
     rules = read_rules(find_rules(rules_name), project, libraries)
     rules, start = with_start(rules, options.derive.start)
     options = options.starting_with(start)
-    compiled = compile_rules(rules, options.derive.style)
+    compiled = compile_rules(rules, options.derive.style, start)
     options = check_options(compiled, rules.path, options)
     library = Library(rules.search)
     assets = library.digest(compiled)
@@ -232,7 +232,7 @@ def _call(
         files,
         options,
         textures,
-        (*otherwise(rules, compiled), *notes),
+        (*otherwise(rules, compiled), *unreached(compiled), *notes),
         lots,
         squares,
         keys,
@@ -342,6 +342,7 @@ def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
         for step in summary["steps"]:
             _add_step(result.steps, StepRecord(**step))
     whole = result.built
+    result.notes += told_computed(whole.missing)
     lost = (row["left_out"] for row in whole.rows)
     result.notes += told_of_all(lost, whole.dropped, call.files)
     names = {square.name for square in call.squares.every}

@@ -24,14 +24,18 @@ FILES = (
 
 @dataclass
 class Whole:
-    """What was built in all blocks; `rows` are the buildings that have a file each."""
+    """What was built in all blocks; `rows` are the buildings that have a file each.
+
+    missing: why assets are not there whose names the rules compute.
+    """
 
     count: int = 0
     polygons: int = 0
     triangles: int = 0
-    dropped: int = 0
+    dropped: Counter[str] = field(default_factory=Counter)
     classes: Counter[str] = field(default_factory=Counter)
     notes: Counter[str] = field(default_factory=Counter)
+    missing: set[str] = field(default_factory=set)
     forms: Counter[str] = field(default_factory=Counter)
     rows: list[dict[str, Any]] = field(default_factory=list)
     blocks: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
@@ -41,9 +45,10 @@ class Whole:
         self.count += summary["built"]
         self.polygons += summary["polygons"]
         self.triangles += summary["triangles"]
-        self.dropped += summary["dropped"]
+        self.dropped.update(summary["dropped"])
         self.classes.update(summary["classes"])
         self.notes.update(summary["notes"])
+        self.missing.update(summary["missing"])
         self.forms.update(summary["forms"])
         self.rows += summary["lots"]
         self.blocks.append((name, summary))

@@ -111,6 +111,7 @@ def read_rules(
     search = search_path(path, project, libraries)
     files: dict[str, str] = {}
     notes: list[str] = []
+    imports: dict[str, list[str]] = {}
     open_names = [main]
     while open_names:
         importer = open_names.pop(0)
@@ -121,11 +122,13 @@ def read_rules(
         for written in _core.grammar_imports(text):
             name = _imported(importer, written, search)
             full = len(files) + len(open_names) >= MAX_FILES
+            if name is not None:
+                imports.setdefault(importer, []).append(name)
             if name is None or name in files or name in open_names or full:
                 continue
             open_names.append(name)
-    search = with_folders(search, files)
-    return RuleFiles(path, with_own_files(Path(main), files, search), search, tuple(notes))
+    own = with_own_files(Path(main), files, search, imports)
+    return RuleFiles(path, own, with_folders(search, files), tuple(notes))
 
 
 def with_start(rules: RuleFiles, start: str | None) -> tuple[RuleFiles, str | None]:
@@ -165,16 +168,21 @@ def _imported(importer: str, written: str, search: SearchPath) -> str | None:
     return None if path is None else os.path.normpath(path).replace(os.sep, "/")
 
 
-def check_rules(rules: RuleFiles) -> Verdict:
-    """What is wrong with the files."""
-    return Verdict(*_core.grammar_check(list(rules.files)))
+def check_rules(rules: RuleFiles, start: str | None = None) -> Verdict:
+    """What is wrong with the files, for derivations that begin with the rule `start`."""
+    return Verdict(*_core.grammar_check(list(rules.files), start))
 
 
-def compile_rules(rules: RuleFiles, style: str | None = None) -> _core.GrammarRules:
-    """The rules ready to derive in a style; InputError with all faults where they cannot."""
+def compile_rules(
+    rules: RuleFiles, style: str | None = None, start: str | None = None
+) -> _core.GrammarRules:
+    """The rules ready to derive in a style; InputError with all faults where they cannot.
+
+    start: the rule that derivations begin with, where it is known.
+    """
     files = list(rules.files)
     try:
-        compiled = _core.GrammarRules(files)
+        compiled = _core.GrammarRules(files, None, start)
         if style is None:
             return compiled
         if style not in compiled.styles:
@@ -182,7 +190,7 @@ def compile_rules(rules: RuleFiles, style: str | None = None) -> _core.GrammarRu
             known = ", ".join(compiled.styles[:12])
             hint = f"Did you mean `{near[0]}`?" if near else f"It has: {known}."
             raise InputError(f"--style {style}", f"is no style of {rules.path.name}", hint)
-        return _core.GrammarRules(files, style)
+        return _core.GrammarRules(files, style, start)
     except _core.GrammarFault as fault:
         raise InputError(
             rules.path,

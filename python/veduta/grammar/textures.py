@@ -8,7 +8,6 @@ assets are among them under names of their own (`assets/pictures.py`).
 
 from __future__ import annotations
 
-import os
 import re
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -21,22 +20,18 @@ from numpy.typing import NDArray
 from PIL import Image
 from pydantic import JsonValue
 
-from veduta.formats.model_pictures import file_of, read_picture
+from veduta.grammar.picture_sources import source_of
 from veduta.grammar.project import SearchPath
-from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
-from veduta.grammar.surfaces.patterns import PATTERNS, pattern_of
+from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, sizes_m
 from veduta.grammar.surfaces.patterns import PREFIX as PATTERN
+from veduta.grammar.surfaces.patterns import pattern_of
 from veduta.imaging.encode import jpeg_bytes, png_bytes
-from veduta.imaging.read import read_image
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.place.material import Colour, Texture
-from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.names import real_path
 
 MAX_TEXTURES = 256
-MAX_PIXELS = 2**26
-"""Of one picture: 67 megapixels."""
 MAX_KEPT = 2**28
 """Bytes of the pictures that a process keeps, if they are several."""
 JPEG_QUALITY = 85
@@ -50,8 +45,6 @@ _NAMED = re.compile(
     re.IGNORECASE,
 )
 
-_OF_ASSET = "asset:"
-"""Before what `formats.model_pictures` reads: there, alpha is what one sees through."""
 _PICTURE = re.compile(r"\.(?:jpe?g|png|webp|tiff?|bmp|tga)$", re.IGNORECASE)
 _SHOWN = re.compile(
     r'//[^\n]*|#[^\n]*|/\*.*?\*/|\btexture\s*\(\s*"(?P<name>[^"\n]*)"\s*\)|"[^"\n]*"', re.DOTALL
@@ -77,9 +70,7 @@ class Textures(Mapping[str, Texture]):
 
     def __getitem__(self, name: str) -> Texture:
         path = name if is_known(name) else self._files[name]
-        if _is_made(path):
-            return _painted(path)
-        return _read(path, *_changed(path))
+        return _read(path, *source_of(path).changed())
 
     def __contains__(self, name: object) -> bool:
         return name in self._files or (isinstance(name, str) and is_known(name))
@@ -94,16 +85,6 @@ class Textures(Mapping[str, Texture]):
 def is_builtin(name: str) -> bool:
     """Whether a texture is one that Veduta brings along."""
     return name.startswith(PREFIX)
-
-
-def _is_made(path: str) -> bool:
-    """Whether a texture is no file: built-in, or a test picture."""
-    return is_builtin(path) or pattern_of(path) is not None
-
-
-def as_texture(picture: str) -> str:
-    """The file among textures of a picture of an asset, as `formats.model_pictures` names it."""
-    return f"{_OF_ASSET}{picture}"
 
 
 def is_known(name: str) -> bool:
@@ -178,24 +159,9 @@ def missing_textures(
     return told
 
 
-def mask_name(name: str) -> str:
-    """The name of the mask beside a picture."""
-    return f"{Path(name).stem}.invented.png"
-
-
 def textures_digests(files: Mapping[str, str]) -> dict[str, JsonValue]:
     """What the pictures and their masks are: a result of others is not taken for theirs."""
-    told: dict[str, JsonValue] = {}
-    for name, path in files.items():
-        if _is_made(path):
-            told[name] = [sources_digest()]
-            continue
-        if path.startswith(_OF_ASSET):
-            told[name] = [file_digest(file_of(path.removeprefix(_OF_ASSET))[0])]
-            continue
-        mask = Path(path).with_name(mask_name(path))
-        told[name] = [file_digest(each) for each in (Path(path), mask) if each.is_file()]
-    return told
+    return {name: [*source_of(path).digests()] for name, path in files.items()}
 
 
 def read_textures(files: Mapping[str, str]) -> Textures:
@@ -203,14 +169,14 @@ def read_textures(files: Mapping[str, str]) -> Textures:
     textures = Textures(files)
     for name, path in files.items():
         # Those of assets are read when an asset is: a faulty one is no fault of the rules.
-        if not _is_made(path) and not path.startswith(_OF_ASSET):
+        if source_of(path).is_given:
             _ = textures[name]
     return textures
 
 
 def is_cut(path: str) -> bool:
     """Whether one sees through a picture somewhere: only those of assets may be so."""
-    return path.startswith(_OF_ASSET) and Textures({path: path})[path].cut
+    return source_of(path).may_be_cut and Textures({path: path})[path].cut
 
 
 def as_file(path: str, most_px: int | None = None, tint: Tint = WHITE) -> bytes:
@@ -238,9 +204,7 @@ def mean_of(path: str) -> Colour:
     """The mean colour (sRGB, 0..1) of a picture of `find_textures`: what it is from afar."""
     if is_builtin(path):
         return mean_colour(path)
-    if _is_made(path):
-        return mean_light(_painted(path).pixels)
-    return _mean_read(path, *_changed(path))
+    return _mean_read(path, *source_of(path).changed())
 
 
 def mean_light(pixels: NDArray[np.uint8]) -> Colour:
@@ -259,22 +223,6 @@ def _mean_read(path: str, written: int, mask_written: int) -> Colour:
     return mean_light(_read(path, written, mask_written).pixels)
 
 
-@lru_cache(maxsize=64)
-def _painted(name: str) -> Texture:
-    """Painted once in each process; nobody has photographed it."""
-    pattern = pattern_of(name)
-    pixels = painted(name) if pattern is None else PATTERNS[pattern]()
-    return Texture(pixels=pixels, invented=np.ones(pixels.shape[:2], dtype=np.bool_))
-
-
-def _changed(path: str) -> tuple[int, int]:
-    """When a picture and its mask were last written (ns); 0 where there is none."""
-    if path.startswith(_OF_ASSET):
-        return os.stat(file_of(path.removeprefix(_OF_ASSET))[0]).st_mtime_ns, 0
-    mask = Path(path).with_name(mask_name(path))
-    return os.stat(path).st_mtime_ns, mask.stat().st_mtime_ns if mask.is_file() else 0
-
-
 def _read(path: str, written: int, mask_written: int) -> Texture:
     """Read once in each process, unless it changes, or many others are read after it.
 
@@ -286,7 +234,7 @@ def _read(path: str, written: int, mask_written: int) -> Texture:
         if known is not None:
             _KEPT.move_to_end(key)
             return known
-    texture = _read_anew(path)
+    texture = source_of(path).read()
     with _LOCK:
         _KEPT[key] = texture
         while len(_KEPT) > 1 and sum(map(_bytes_of, _KEPT.values())) > MAX_KEPT:
@@ -296,20 +244,3 @@ def _read(path: str, written: int, mask_written: int) -> Texture:
 
 def _bytes_of(texture: Texture) -> int:
     return texture.pixels.nbytes + texture.invented.nbytes
-
-
-def _read_anew(path: str) -> Texture:
-    if path.startswith(_OF_ASSET):
-        return read_picture(path.removeprefix(_OF_ASSET))
-    pixels = read_image(Path(path)).pixels
-    height, width = pixels.shape[:2]
-    if height * width > MAX_PIXELS:
-        raise InputError(path, f"is {width} x {height} pixels large", "Make it smaller.")
-    mask = Path(path).with_name(mask_name(path))
-    invented = np.zeros((height, width), dtype=np.bool_)
-    if mask.is_file():
-        white = read_image(mask).pixels[:, :, 0] > 127
-        if white.shape != invented.shape:
-            raise InputError(mask, f"is not as large as {Path(path).name}", "Make it as large.")
-        invented = white
-    return Texture(pixels=pixels, invented=invented)

@@ -64,7 +64,8 @@ class Built:
 class Town:
     """What is known of a block's tiles while they are written.
 
-    pictures: those that rules may name. shown: the names of those that a tile has.
+    pictures: those that rules may name. shown: the names of those that a tile has. dropped: how
+    many surfaces of each rule are too thin to show.
     """
 
     folder: Path
@@ -75,7 +76,7 @@ class Town:
     classes: Counter[str] = field(default_factory=Counter)
     polygons: int = 0
     triangles: int = 0
-    dropped: int = 0
+    dropped: Counter[str] = field(default_factory=Counter)
     shown: set[str] = field(default_factory=set)
 
     def leaf(
@@ -152,7 +153,7 @@ class Town:
         self.shown |= {self.pictures[number].name for number in numbers}
         if level == FULL:
             self.triangles += buffers.triangles
-            self.dropped += buffers.dropped
+            self.dropped.update(buffers.dropped)
             for counts in buffers.counts:
                 self.classes.update(dict(zip(CLASSES, counts, strict=True)))
         return Tile(buffers.bounds, ERROR_M[level], name)

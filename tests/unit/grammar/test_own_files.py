@@ -12,6 +12,7 @@ from veduta.formats.gltf import read_glb
 from veduta.grammar.options import GrammarOptions, OutputOptions
 from veduta.grammar.pipeline import run_derive
 from veduta.grammar.rules import read_rules
+from veduta.grammar.textures import missing_textures
 from veduta.run.progress import Progress
 
 COLOURS = {"left": (200, 20, 20), "right": (20, 200, 20)}
@@ -79,5 +80,24 @@ def test_a_link_out_of_the_folders_is_not_followed(
     outside = tmp_path_factory.mktemp("outside") / "wall.png"
     (town.parent / "right/pictures/wall.png").rename(outside)
     (town.parent / "right/pictures/wall.png").symlink_to(outside)
+    rules = read_rules(town)
+    assert 'texture("right/pictures/wall.png")' in dict(rules.texts)["right/facade.cga"]
+    assert rules.search.find("right/pictures/wall.png") is None
+
+
+def test_a_facade_without_its_picture_does_not_wear_another(town: Path) -> None:
+    (town.parent / "right/pictures/wall.png").unlink()
+    rules = read_rules(town)
+    texts = {Path(name).parent.name: text for name, text in rules.files}
+    assert 'texture("right/pictures/wall.png")' in texts["right"]
+    assert rules.search.find("right/pictures/wall.png") is None
+    (told,) = missing_textures(rules.path, rules.files, rules.search)
+    assert "right/facade.cga:3: no picture `right/pictures/wall.png`" in told
+
+
+def test_what_lies_beside_files_that_a_file_imports_is_seen(town: Path) -> None:
+    facade = town.parent / "right/facade.cga"
+    facade.write_text('import other : "../left/facade.cga"\n' + facade.read_text())
+    (town.parent / "right/pictures/wall.png").unlink()
     texts = {Path(name).parent.name: text for name, text in read_rules(town).files}
-    assert "right/pictures" not in texts["right"]
+    assert 'texture("pictures/wall.png")' in texts["right"]

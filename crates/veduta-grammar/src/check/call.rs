@@ -68,7 +68,10 @@ impl Checker<'_> {
     fn report_no_rule(&mut self, call: &Call) {
         let name = &call.name;
         let place = self.place(name);
-        if matches!(place, Place::Missing) || self.diagnostics.is_full() {
+        if let Place::Missing { unit, link } = place {
+            return self.reach.miss(unit, link, name.span);
+        }
+        if self.diagnostics.is_full() {
             return;
         }
         if call.block.is_none() && self.is_grafted(name, call.args().len()) {

@@ -143,7 +143,10 @@ impl Checker<'_> {
             let counts: Vec<usize> = (function.least..=function.most).map(usize::from).collect();
             return self.report_count(name, &counts, count);
         }
-        if matches!(place, Place::Missing) || self.diagnostics.is_full() {
+        if let Place::Missing { unit, link } = place {
+            return self.reach.miss(*unit, *link, name.span);
+        }
+        if self.diagnostics.is_full() {
             return;
         }
         let text = self.text(name);
@@ -199,7 +202,7 @@ impl Checker<'_> {
                 unit,
                 name: Some(symbol),
             } => self.defined(unit).value(symbol, 0).is_some(),
-            Place::Missing => true,
+            Place::Missing { .. } => true,
             _ => false,
         };
         found

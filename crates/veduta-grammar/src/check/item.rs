@@ -17,10 +17,18 @@ impl<'a> Checker<'a> {
         let file = &self.program.units[self.unit].parse.file;
         self.imports_differ();
         let mut in_style = false;
-        for item in &file.items {
+        for (index, item) in file.items.iter().enumerate() {
             in_style |= matches!(item.kind, ItemKind::Style(_));
+            self.reach.origin = self.can_be_unreached(item).then_some(index);
+            let before = self.diagnostics.len();
             self.item(item, in_style);
+            if self.reach.origin.is_some() {
+                self.reach
+                    .told
+                    .push((index, before..self.diagnostics.len()));
+            }
         }
+        self.reach.origin = None;
         self.report_endless_values();
     }
 
@@ -51,6 +59,15 @@ impl<'a> Checker<'a> {
                 self.locals(&rule.locals);
                 self.body(&rule.body);
             }
+        }
+    }
+
+    /// Whether a statement is a rule that only counts where others call it. One of an import that
+    /// this file tells otherwise is called under another name.
+    fn can_be_unreached(&self, item: &Item) -> bool {
+        match &item.kind {
+            ItemKind::Rule(rule) => !self.text(&rule.name).contains('.'),
+            _ => false,
         }
     }
 

@@ -15,8 +15,11 @@ pub(super) enum Place {
     },
     /// The first part names no import.
     NoImport,
-    /// It names one whose file is missing, which has been reported.
-    Missing,
+    /// It names one whose file is missing, which has been reported: the file and its import.
+    Missing {
+        unit: usize,
+        link: usize,
+    },
 }
 
 impl Checker<'_> {
@@ -26,13 +29,13 @@ impl Checker<'_> {
         let mut rest = self.text(name);
         while let Some((first, after)) = rest.split_once('.') {
             let id = self.names().find(first);
-            let mut imports = self.program.units[unit].imports.iter();
-            match imports.find(|link| Some(link.id) == id) {
-                None => return Place::NoImport,
-                Some(link) => match link.unit {
-                    None => return Place::Missing,
-                    Some(next) => unit = next,
-                },
+            let imports = &self.program.units[unit].imports;
+            let Some(link) = imports.iter().position(|link| Some(link.id) == id) else {
+                return Place::NoImport;
+            };
+            match imports[link].unit {
+                None => return Place::Missing { unit, link },
+                Some(next) => unit = next,
             }
             rest = after;
         }
@@ -115,6 +118,7 @@ impl Checker<'_> {
     /// Keeps the target of a name, and that a rule is called.
     pub fn resolve_rule(&mut self, name: &Ident, unit: usize, index: usize) {
         self.used_rules.insert((unit, index));
+        self.reach.calls.push((self.reach.origin, (unit, index)));
         self.resolve(name, Target::Rule { unit, index });
     }
 }

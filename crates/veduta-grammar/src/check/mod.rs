@@ -6,6 +6,7 @@ mod definitions;
 mod expression;
 mod item;
 mod lookup;
+mod reached;
 mod recursion;
 mod selectors;
 
@@ -64,6 +65,11 @@ pub struct Checked {
     pub diagnostics: Vec<Vec<Diagnostic>>,
     pub definitions: Vec<Definitions>,
     pub resolutions: Vec<Resolution>,
+    /// Rules that cannot be derived and that nothing reaches from the start rule, by file and item,
+    /// and why: where one is reached after all, the derivation stops.
+    pub broken: HashMap<(usize, usize), Diagnostic>,
+    /// What would be an error where it were reached; among the diagnostics, too.
+    pub unreached: Vec<Vec<Diagnostic>>,
 }
 
 impl Checked {
@@ -81,6 +87,11 @@ impl Checked {
 
 /// Checks a program. Statements that did not parse are left out, so what they define is missing.
 pub fn check(program: &Program) -> Checked {
+    check_from(program, None)
+}
+
+/// The same for a derivation that begins with the rule of the main file that is named `start`.
+pub fn check_from(program: &Program, start: Option<&str>) -> Checked {
     let mut faults: Vec<Diagnostics> = Vec::new();
     let mut definitions = Vec::new();
     for unit in &program.units {
@@ -96,23 +107,34 @@ pub fn check(program: &Program) -> Checked {
         ));
         faults.push(list);
     }
-    let is_broken = program
+    let does_not_parse = program
         .units
         .iter()
         .any(|unit| unit.parse.diagnostics.iter().any(Diagnostic::is_error));
+    let is_broken = does_not_parse || program.units.iter().any(|unit| !unit.missing.is_empty());
     let defined = definitions.iter();
     let grafts = defined.flat_map(|one| one.grafts(&program.names)).collect();
     let mut used = HashSet::new();
     let mut resolutions = Vec::new();
+    let mut reaches = Vec::new();
     for (unit, list) in faults.iter_mut().enumerate() {
         let mut checker = Checker::new(program, &definitions, &grafts, unit, list);
         checker.is_broken = is_broken;
         checker.file();
         used.extend(checker.used_rules);
+        reaches.push(checker.reach);
         resolutions.push(Resolution {
             targets: checker.targets,
         });
     }
+    let unreached = reached::Settling {
+        program,
+        definitions: &definitions,
+        start: reached::start(&definitions, &program.names, start),
+        reaches,
+        does_not_parse,
+    }
+    .settle(&mut faults);
     // What calls a rule, or defines it, may stand in a statement that did not parse.
     if let (false, Some(main), Some(list)) = (is_broken, definitions.first(), faults.first_mut()) {
         main.report_unused(&program.names, &used, list);
@@ -121,6 +143,8 @@ pub fn check(program: &Program) -> Checked {
         diagnostics: faults.into_iter().map(Diagnostics::into_sorted).collect(),
         definitions,
         resolutions,
+        broken: unreached.broken,
+        unreached: unreached.told,
     }
 }
 
@@ -138,6 +162,7 @@ struct Checker<'a> {
     /// Slots of the parameters and local variables of the definition in hand.
     locals: HashMap<Symbol, usize>,
     calls: recursion::Calls,
+    reach: reached::Reach,
     /// Whether statements did not parse: what they define is not known to be missing.
     is_broken: bool,
 }
@@ -160,6 +185,7 @@ impl<'a> Checker<'a> {
             used_rules: HashSet::new(),
             locals: HashMap::new(),
             calls: recursion::Calls::default(),
+            reach: reached::Reach::default(),
             is_broken: false,
         }
     }

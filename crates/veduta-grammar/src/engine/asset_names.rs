@@ -54,7 +54,7 @@ fn in_steps(steps: &[Step], seen: &mut impl FnMut(&Operation)) {
                 seen(operation);
                 in_cells(&operation.cells, seen);
             }
-            Step::Rule { .. } | Step::Leaf { .. } => {}
+            Step::Rule { .. } | Step::Leaf { .. } | Step::Broken { .. } => {}
         }
     }
 }

@@ -202,6 +202,11 @@ pub enum Step {
     },
     Push(Body),
     Operation(Box<Operation>),
+    /// What cannot be derived, and nothing was thought to reach.
+    Broken {
+        message: Arc<str>,
+        span: Span,
+    },
 }
 
 #[derive(Debug, Clone)]

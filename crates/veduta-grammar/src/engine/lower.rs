@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::ast::{self, Ident, ItemKind, Override};
 use crate::{Checked, Definition, Diagnostic, Program, Role, Span, Target};
 
-use super::code::{Body, Code, Global, Rule, UserFunction};
+use super::code::{Body, Code, Global, Rule, Step, UserFunction};
 use super::instances::{attribute, instances, Instance, MAX_INSTANCES};
 
 /// The code, and what of the files does not derive yet, by file.
@@ -162,6 +162,31 @@ fn is_global(definition: &Definition) -> bool {
     definition.role != Role::Function && definition.arity == 0
 }
 
+/// A rule that stops the derivation where it is reached.
+fn broken(
+    fault: &Diagnostic,
+    unit: usize,
+    rule: &ast::Rule,
+    name: Arc<str>,
+    params: Vec<Arc<str>>,
+) -> Rule {
+    let hint = fault.hint.as_ref().map(|hint| format!(": {hint}"));
+    let message = format!("{}{}", fault.message, hint.unwrap_or_default());
+    let step = Step::Broken {
+        message: message.into(),
+        span: fault.span,
+    };
+    Rule {
+        name,
+        unit,
+        span: rule.name.span,
+        symbol: rule.name.symbol,
+        params,
+        locals: Vec::new(),
+        body: Body::Steps(vec![step]),
+    }
+}
+
 /// One file on its way.
 pub(super) struct Lowering<'a> {
     pub program: &'a Program,
@@ -218,14 +243,14 @@ impl<'a> Lowering<'a> {
         for (index, definition) in definitions.iter().enumerate() {
             let variant = self.own().variant(&definition.variants);
             match &file.items[variant.item].kind {
-                ItemKind::Rule(rule) => self.rule(rule, definition, code),
+                ItemKind::Rule(rule) => self.rule(rule, variant.item, definition, code),
                 ItemKind::Value(value) => self.value(value, index, definition, code),
                 _ => {}
             }
         }
     }
 
-    fn rule(&mut self, rule: &ast::Rule, definition: &Definition, code: &mut Code) {
+    fn rule(&mut self, rule: &ast::Rule, item: usize, definition: &Definition, code: &mut Code) {
         if matches!(definition.role, Role::StartRule { .. })
             && self.instance == 0
             && code.start.is_none()
@@ -233,7 +258,14 @@ impl<'a> Lowering<'a> {
             code.start = Some(code.rules.len());
         }
         let (name, symbol) = (self.shared(rule.name), rule.name.symbol);
-        code.rules.push(match self.extended(definition) {
+        let own = self.own().unit;
+        let extended = self.extended(definition);
+        if let (Some(fault), None) = (self.checked.broken.get(&(own, item)), &extended) {
+            let params = self.shared_all(&rule.params);
+            code.rules.push(broken(fault, own, rule, name, params));
+            return;
+        }
+        code.rules.push(match extended {
             Some(extension) => Rule {
                 name,
                 unit: extension.unit,

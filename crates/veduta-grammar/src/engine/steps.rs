@@ -48,6 +48,9 @@ impl Run<'_> {
                     self.leave(&code.names[symbol.index()], frame)?;
                     frame.consumed();
                 }
+                Step::Broken { message, span } => {
+                    return Err(Fault::at(*span, message.as_ref()));
+                }
                 Step::Push(inner) => self.run_pushed(inner, frame)?,
                 Step::Operation(operation) => super::operations::run(self, operation, frame)?,
             }

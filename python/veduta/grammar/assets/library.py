@@ -19,10 +19,11 @@ from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names, part
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
 from veduta.grammar.assets.pictures import picture_name, pictures_of_files
 from veduta.grammar.assets.primitives import missing_box, primitive
+from veduta.grammar.picture_sources import as_texture
 from veduta.grammar.project import SearchPath
 from veduta.grammar.surfaces.catalogue import PREFIX as TEXTURES
 from veduta.grammar.surfaces.catalogue import sizes_m, sources_digest
-from veduta.grammar.textures import MAX_TEXTURES, as_texture, mean_of
+from veduta.grammar.textures import MAX_TEXTURES, mean_of
 from veduta.place.material import Colour
 from veduta.run.errors import InputError
 
@@ -133,6 +134,11 @@ class Library:
             return found, ()
         note = f"assets have more than {MAX_TEXTURES} pictures: of the others the mean is shown"
         return dict(list(found.items())[:MAX_TEXTURES]), (note,)
+
+    def computed_missing(self, rules: _core.GrammarRules) -> list[str]:
+        """Why assets are not there whose names the rules compute, by the names."""
+        written = set(rules.asset_names[0])
+        return [why for name, why in sorted(self.missing.items()) if name not in written]
 
     def told_missing(self) -> list[str]:
         """What to say of the assets that are missing, and of what is missing of the others."""

@@ -1,0 +1,149 @@
+//! What the start rule never reaches refuses nothing: faults there are told as warnings.
+
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+
+use super::definitions::{Definition, Definitions, Role};
+use crate::diagnostic::Diagnostics;
+use crate::{Diagnostic, Names, Program, Span};
+
+const WHY: &str = "nothing reaches this rule";
+const UNUSED: &str = "nothing that is reached uses it";
+
+/// A rule: its file, and its place among the definitions or the items there.
+type Place = (usize, usize);
+
+/// What the statements of one file call, and what was said of them.
+#[derive(Debug, Default)]
+pub(super) struct Reach {
+    /// The item in hand, where it is a rule that only counts where others call it.
+    pub origin: Option<usize>,
+    /// Who calls which rule (file and definition).
+    pub calls: Vec<(Option<usize>, Place)>,
+    /// Which diagnostics are about an item.
+    pub told: Vec<(usize, Range<usize>)>,
+    /// Who names something of a file that is missing: its importer, which import, and where.
+    missed: Vec<(Option<usize>, Place, Span)>,
+}
+
+impl Reach {
+    pub fn miss(&mut self, unit: usize, link: usize, span: Span) {
+        self.missed.push((self.origin, (unit, link), span));
+    }
+}
+
+/// What nothing reaches.
+#[derive(Debug, Default)]
+pub(super) struct Unreached {
+    /// Rules that cannot be derived, by file and item, and why.
+    pub broken: HashMap<Place, Diagnostic>,
+    /// What was an error where it were reached, by file.
+    pub told: Vec<Vec<Diagnostic>>,
+}
+
+/// What reaching is told from.
+pub(super) struct Settling<'a> {
+    pub program: &'a Program,
+    pub definitions: &'a [Definitions],
+    /// The rule that the derivation begins with.
+    pub start: Option<Place>,
+    /// By file.
+    pub reaches: Vec<Reach>,
+    pub does_not_parse: bool,
+}
+
+impl Settling<'_> {
+    /// Tells missing imports, softens what is wrong with rules that nothing reaches, and gives
+    /// those.
+    pub fn settle(self, faults: &mut [Diagnostics]) -> Unreached {
+        // What calls a rule may stand in a statement that did not parse.
+        let items = (!self.does_not_parse).then(|| self.reached_items());
+        let is_reached = |unit: usize, origin: Option<usize>| match (&items, origin) {
+            (Some(items), Some(item)) => items.contains(&(unit, item)),
+            _ => true,
+        };
+        let mut found = Unreached {
+            broken: HashMap::new(),
+            told: vec![Vec::new(); self.program.units.len()],
+        };
+        let mut wanted = HashSet::new();
+        for (unit, reach) in self.reaches.iter().enumerate() {
+            for (origin, link, span) in &reach.missed {
+                match origin {
+                    Some(item) if !is_reached(unit, *origin) => {
+                        let message = "this stands in an imported file that is missing";
+                        let fault = Diagnostic::error(*span, message);
+                        found.broken.entry((unit, *item)).or_insert(fault);
+                    }
+                    _ => {
+                        wanted.insert(*link);
+                    }
+                }
+            }
+            for (item, some) in &reach.told {
+                if !is_reached(unit, Some(*item)) {
+                    for (before, told) in faults[unit].soften(some.clone(), WHY) {
+                        found.broken.entry((unit, *item)).or_insert(before);
+                        found.told[unit].push(told);
+                    }
+                }
+            }
+        }
+        for (unit, file) in self.program.units.iter().enumerate() {
+            for (link, fault) in &file.missing {
+                let at = faults[unit].len();
+                faults[unit].add(fault.clone());
+                if items.is_some() && !wanted.contains(&(unit, *link)) {
+                    let all = at..faults[unit].len();
+                    let softened = faults[unit].soften(all, UNUSED).into_iter();
+                    found.told[unit].extend(softened.map(|(_, told)| told));
+                }
+            }
+        }
+        found
+    }
+
+    /// The items of rules that the start rule reaches, over calls of any branch.
+    fn reached_items(&self) -> HashSet<Place> {
+        let mut calls: HashMap<Place, Vec<Place>> = HashMap::new();
+        let mut open: Vec<Place> = self.start.into_iter().collect();
+        for (unit, reach) in self.reaches.iter().enumerate() {
+            for (origin, called) in &reach.calls {
+                match origin {
+                    Some(item) => calls.entry((unit, *item)).or_default().push(*called),
+                    None => open.push(*called),
+                }
+            }
+        }
+        let mut reached = HashSet::new();
+        while let Some((unit, index)) = open.pop() {
+            for variant in &self.definitions[unit].rules[index].variants {
+                if reached.insert((unit, variant.item)) {
+                    open.extend(calls.get(&(unit, variant.item)).into_iter().flatten());
+                }
+            }
+        }
+        reached
+    }
+}
+
+/// The rule that a derivation begins with: the one that is named, if there is one, or that which
+/// the main file has for it.
+pub(super) fn start(
+    definitions: &[Definitions],
+    names: &Names,
+    named: Option<&str>,
+) -> Option<Place> {
+    let rules = &definitions.first()?.rules;
+    let text = |rule: &Definition| names.text(rule.name.symbol);
+    let mut called = rules.iter();
+    let called = called.position(|rule| rule.arity == 0 && Some(text(rule)) == named);
+    let is_marked = |rule: &Definition| matches!(rule.role, Role::StartRule { .. });
+    let is_able = |rule: &Definition| rule.arity == 0 && !text(rule).contains('.');
+    let found = called
+        .or_else(|| rules.iter().position(is_marked))
+        .or_else(|| rules.iter().position(is_able));
+    found
+        .or((!rules.is_empty()).then_some(0))
+        .map(|index| (0, index))
+}
