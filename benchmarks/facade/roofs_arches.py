@@ -1,6 +1,7 @@
 """Roofs, arched heads and fronts of glass: told on pictures that no step was looked at on.
 
-    python benchmarks facade/roofs_arches [--kept FILE] [--most 20] [--draft]
+    python benchmarks facade/roofs_arches [cmp] [renders] [glass] [--kept FILE] [--most 20]
+                                         [--draft]
 
 `roofs_arches_marked.json` has, by eye, what ends each front of CMP: `gable`, `roof` (a slope is
 seen over the eaves), `none` (a cornice or a parapet), or `unsure`; and rectangles, as shares of
@@ -37,11 +38,11 @@ HERE = Path(__file__).parent
 DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
 HELD_FROM = 241
 RENDERED = {
-    "modern-slab": ("none", (*range(6), *range(40, 52))),
-    "haussmann": ("roof", (*range(3), *range(40, 44))),
-    "restauration": ("roof", (*range(3), *range(40, 44))),
-    "empire": ("roof", range(40, 44)),
-    "victorian": ("roof", range(40, 44)),
+    "modern-slab": ("none", (*range(6), *range(40, 50))),
+    "haussmann": ("roof", range(40, 43)),
+    "restauration": ("roof", range(40, 43)),
+    "empire": ("roof", range(40, 43)),
+    "victorian": ("roof", range(40, 43)),
 }
 """Styles with what ends their fronts, and seeds: those from 40 on nothing was looked at on."""
 UNSEEN_FROM = 40
@@ -50,6 +51,8 @@ TOLD = {"flat": "none", "mansard": "roof", "hip": "gable", "gable": "gable"}
 GLASS = {"curtain": range(10, 16), "bands": range(10, 14), "loggias": range(10, 13)}
 """Fronts of `modern-slab` with seeds: the first two are of glass."""
 KINDS = ("none", "roof", "gable")
+SETS = ("cmp", "renders", "glass")
+"""Of what: pictures, rendered roofs, rendered fronts of glass; a part has a table of its own."""
 Found = dict[str, Any]
 Share = Sequence[float]
 
@@ -57,6 +60,7 @@ Share = Sequence[float]
 def main() -> None:
     """Read, compare, record."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("sets", nargs="*", choices=[*SETS, []], default=list(SETS))
     parser.add_argument("--kept", type=Path, help="where what was read is kept as it comes")
     parser.add_argument("--most", type=int, help="read no more than so many pictures")
     parser.add_argument("--draft", action="store_true", help="keep nothing")
@@ -66,9 +70,17 @@ def main() -> None:
         marks |= {f"{style} {seed}": {"roof": roof} for seed in seeds}
     for facade, seeds in GLASS.items():
         marks |= {f"modern-slab {seed} {facade}": {"roof": "unsure"} for seed in seeds}
+    marks = {name: mark for name, mark in marks.items() if _kind_of(name) in call.sets}
     found = kept_of(list(marks), call.kept, call.most, _read)
     rows = [*_roofs(marks, found), *_arches(marks, found), *_glass(found)]
-    keep_or_print("facade-roofs-arches", rows, [LEGEND, *_wrong(marks, found)], not call.draft)
+    rows = [row for row in rows if row["number"]]
+    parts = "-".join(call.sets)
+    name = "facade-roofs-arches" if len(call.sets) == len(SETS) else f"facade-roofs-{parts}"
+    keep_or_print(name, rows, [LEGEND, *_wrong(marks, found)], not call.draft)
+
+
+def _kind_of(name: str) -> str:
+    return ("cmp", "renders", "glass")[name.count(" ")]
 
 
 LEGEND = (
