@@ -76,6 +76,7 @@ def test_a_shop_stands_on_the_pavement_and_is_none_in_it(cases: Path) -> None:
     assert foot == pytest.approx(0.66 * document.rectification.height_px, rel=0.05)
     above = [e for e in document.elements if e.class_ == "window" and e.floor == 1]
     assert len(above) >= 3
+    assert any(e.class_ == "shop" and e.floor == 0 for e in document.elements)
 
 
 def test_strips_of_windows_are_read_as_six_storeys(cases: Path) -> None:

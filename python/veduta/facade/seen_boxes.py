@@ -17,8 +17,14 @@ _NEXT_COLUMN = 0.5
 # The mean chance of shop in a window beside shops from which it is a shop's pane; chosen with the
 # 60 pictures of CMP in sight that the eyes were not trained on.
 _PANE_CHANCE = 0.1
+# The same of a pane alone, and how much wider it is than the windows above: set before they were
+# measured.
+_LONE_CHANCE, _WIDE_PANE = 0.2, 1.3
 # Share of the width of a shop below which there are windows and doors: it is their sign.
 _UNDER_SIGN = 0.4
+# Of a storey: a shop is as high as a door. Of five false ones on 25 fronts of CMP, which were
+# looked at, three are lower (0.13 to 0.3), two are a van and a shutter with a sign.
+_LEAST_SHOP = 1.0 / 3.0
 
 
 def in_crop(
@@ -51,8 +57,9 @@ def on_their_floors(
     """The elements, of which shops and doors are on the ground floor alone.
 
     A shop above it is an awning or a sign, and left out, and so is one with windows and doors below
-    it; a door above it is a window down to the floor. A front without floors (one boundary), or
-    without any opening on its ground floor, keeps both wherever they are.
+    it, or one lower than a third of a storey (a sign, a vehicle, the foot of the wall); a door
+    above it is a window down to the floor. A front without floors (one boundary), or without any
+    opening on its ground floor, keeps both wherever they are.
     """
     ground = boundaries[-1]
     on_ground = any(e.kind != "balcony" and 0.5 * (e.y0 + e.y1) >= ground for e in elements)
@@ -66,7 +73,12 @@ def on_their_floors(
             and e.y1 < ground + 0.25 * e.height
         )
 
-    kept = [e for e in elements if e.kind != "shop" or not (is_above(e) or is_sign(e, elements))]
+    storey = (ground - boundaries[0]) / (len(boundaries) - 1)
+
+    def is_none(e: SeenElement) -> bool:
+        return is_above(e) or is_sign(e, elements) or e.height < _LEAST_SHOP * storey
+
+    kept = [e for e in elements if e.kind != "shop" or not is_none(e)]
     return [replace(e, kind="window") if is_above(e) else e for e in kept]
 
 
@@ -75,26 +87,43 @@ def with_panes_of_shops(
 ) -> list[SeenElement]:
     """The elements, of which windows on the ground floor that look like shops are such.
 
-    Only beside a shop, in its rows and not in it: a pane alone is a window. shop: (h, w) the chance
-    of shop in the crop.
+    Beside a shop, in its rows and not in it; or alone, where they are wide and look more like one.
+    shop: (h, w) the chance of shop in the crop.
     """
-    shops = [e for e in elements if e.kind == "shop"]
-    if len(boundaries) < 2 or not shops:
+    if len(boundaries) < 2:
         return list(elements)
+    above = [e.width for e in elements if e.kind == "window" and e.y1 < boundaries[-1]]
+    wide = _WIDE_PANE * float(np.median(above)) if above else np.inf
+    found = [
+        replace(e, kind="shop")
+        if _is_below(e, boundaries) and e.width > wide and _chance_in(e, shop) > _LONE_CHANCE
+        else e
+        for e in elements
+    ]
+    shops = [e for e in found if e.kind == "shop"]
 
-    def is_pane(e: SeenElement) -> bool:
+    def is_beside(e: SeenElement) -> bool:
         x, y = 0.5 * (e.x0 + e.x1), 0.5 * (e.y0 + e.y1)
-        if e.kind != "window" or y < boundaries[-1]:
-            return False
-        if not any(one.y0 < y < one.y1 for one in shops):
-            return False
-        if any(one.x0 < x < one.x1 and one.y0 < y < one.y1 for one in shops):
-            return False
-        rows, columns = slice(int(e.y0), int(e.y1) + 1), slice(int(e.x0), int(e.x1) + 1)
-        part = shop[rows, columns]
-        return part.size > 0 and float(part.mean()) > _PANE_CHANCE
+        rows = [one for one in shops if one.y0 < y < one.y1]
+        return bool(rows) and not any(one.x0 < x < one.x1 for one in rows)
 
-    return [replace(e, kind="shop") if is_pane(e) else e for e in elements]
+    return [
+        replace(e, kind="shop")
+        if _is_below(e, boundaries) and is_beside(e) and _chance_in(e, shop) > _PANE_CHANCE
+        else e
+        for e in found
+    ]
+
+
+def _is_below(e: SeenElement, boundaries: Sequence[int]) -> bool:
+    """Whether it is a window of the ground floor."""
+    return e.kind == "window" and 0.5 * (e.y0 + e.y1) >= boundaries[-1]
+
+
+def _chance_in(e: SeenElement, chance: NDArray[np.float32]) -> float:
+    """The mean of chances (h, w) in an element."""
+    part = chance[int(e.y0) : int(e.y1) + 1, int(e.x0) : int(e.x1) + 1]
+    return float(part.mean()) if part.size else 0.0
 
 
 def is_sign(shop: SeenElement, elements: Sequence[SeenElement]) -> bool:

@@ -32,6 +32,15 @@ def test_a_shop_above_the_ground_floor_is_left_out_and_a_door_there_is_a_window(
     assert [(e.kind, e.x0) for e in kept] == [("window", 20.0), ("shop", 40.0), ("door", 60.0)]
 
 
+def test_a_shop_lower_than_a_door_is_a_sign_or_a_vehicle() -> None:
+    """Of storeys of 40 px a third is 13."""
+    door = element("door", 60.0, 110.0, 30.0)
+    for high, is_kept in ((12.0, False), (15.0, True)):
+        shop = element("shop", 20.0, 120.0, high)
+        assert (shop in on_their_floors([door, shop], FLOORS)) == is_kept
+        assert shop in on_their_floors([door, shop], [20])
+
+
 def test_a_front_without_floors_keeps_both_wherever_they_are() -> None:
     some = [element("shop", 0.0, 40.0), element("door", 20.0, 50.0)]
     assert on_their_floors(some, [20]) == some
@@ -116,6 +125,15 @@ def test_windows_beside_a_shop_that_look_like_one_are_panes_of_shops() -> None:
     kinds = [e.kind for e in with_panes_of_shops(some, FLOORS, chance)]
     assert kinds == ["shop", "window", "shop", "window", "window"]
     assert with_panes_of_shops(some[1:], FLOORS, chance) == some[1:]
+
+
+def test_a_pane_alone_is_a_shop_where_it_is_wide_and_looks_like_one() -> None:
+    upper = element("window", 40.0, 70.0)
+    pane = replace(upper, x0=10.0, x1=30.0, y0=105.0, y1=125.0)
+    for least, wide, kind in ((0.25, 20.0, "shop"), (0.15, 20.0, "window"), (0.25, 11.0, "window")):
+        some = [replace(pane, x1=pane.x0 + wide), upper]
+        chance = np.full((130, 80), least, np.float32)
+        assert [e.kind for e in with_panes_of_shops(some, FLOORS, chance)] == [kind, "window"]
 
 
 @pytest.mark.parametrize(
