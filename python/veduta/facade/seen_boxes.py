@@ -23,8 +23,9 @@ _LONE_CHANCE, _WIDE_PANE = 0.2, 1.3
 # Share of the width of a shop below which there are windows and doors: it is their sign.
 _UNDER_SIGN = 0.4
 # Of a storey: a shop is as high as a door. Of five false ones on 25 fronts of CMP, which were
-# looked at, three are lower (0.13 to 0.3), two are a van and a shutter with a sign.
-_LEAST_SHOP = 1.0 / 3.0
+# looked at, two are lower (0.13), three are a sign, a van and a shutter with a sign. A third of a
+# storey leaves out the sign and true panes, too (F1 0.349 on CMP's 60, where it was 0.392).
+_LEAST_SHOP = 0.2
 
 
 def in_crop(
@@ -57,7 +58,7 @@ def on_their_floors(
     """The elements, of which shops and doors are on the ground floor alone.
 
     A shop above it is an awning or a sign, and left out, and so is one with windows and doors below
-    it, or one lower than a third of a storey (a sign, a vehicle, the foot of the wall); a door
+    it, or one lower than a fifth of a storey (a vehicle's sign, the foot of the wall); a door
     above it is a window down to the floor. A front without floors (one boundary), or without any
     opening on its ground floor, keeps both wherever they are.
     """
