@@ -100,7 +100,7 @@ def test_what_stands_higher_has_none() -> None:
 def test_a_file_says_how_thin_it_is(tmp_path: Path) -> None:
     write_glb(_part(_thing("wardrobe-white", (2.0, 2.5), (1.0, 0.6, 2.0))), tmp_path / "a.glb")
     (look,) = [one for one in read_glb(tmp_path / "a.glb").materials if one.name == NAME]
-    assert look.opacity == pytest.approx(0.14)
+    assert look.opacity == pytest.approx(0.095)
     assert max(look.colour) < 0.1
 
 

@@ -30,15 +30,15 @@ from veduta.plan.house.furniture import footprint
 from veduta.plan.house.space import Space, pieces_of
 
 LOOK = "contact shadow"
-LAYERS_M = (0.10, 0.06, 0.034, 0.017, 0.006)
+LAYERS_M = (0.12, 0.09, 0.066, 0.046, 0.03, 0.017, 0.006)
 """How far each layer reaches beyond what touches the floor, the lowest and widest first."""
 FLAT_M = 0.03
 """What is no higher is a rug: others cast their shade on it."""
-_OVER: tuple[tuple[float, float, int], ...] = ((0.06, 0.04, 4), (0.2, 0.08, 3), (0.45, 0.12, 2))
+_OVER: tuple[tuple[float, float, int], ...] = ((0.06, 0.05, 6), (0.2, 0.10, 5), (0.45, 0.15, 4))
 """Undersides from so high on, to the next: how far their shade blurs, and in how many layers."""
 _HIGHEST_M = 0.85
 _ROUND_M = 0.03
-"""Corners of layers that reach no farther are cut once, others twice."""
+"""Corners of layers that reach no farther are cut once, others are rounder."""
 _RISE_M, _STEP_M = 0.0008, 0.0003
 _LEAST_M2 = 4e-4
 
@@ -142,13 +142,13 @@ def _layers(shades: Sequence[Shade], floor: BaseGeometry) -> list[BaseGeometry]:
     found = []
     for number, reach in enumerate(LAYERS_M):
         shapes = [
-            one.touching.buffer(reach, quad_segs=2 if reach > _ROUND_M else 1) for one in shades
+            one.touching.buffer(reach, quad_segs=3 if reach > _ROUND_M else 1) for one in shades
         ]
         for index, (_, blur, count) in enumerate(_OVER):
             if number < count:
                 out = blur * (1.0 - 2.0 * number / (count - 1))
-                shapes += [one.over[index].buffer(out, quad_segs=2) for one in shades]
-        region = unary_union(shapes).intersection(floor).simplify(0.003 + 0.1 * reach)
+                shapes += [one.over[index].buffer(out, quad_segs=4) for one in shades]
+        region = unary_union(shapes).intersection(floor).simplify(0.002 + 0.04 * reach)
         found.append(_clean(region))
     return found
 

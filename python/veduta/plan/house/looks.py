@@ -66,7 +66,7 @@ LOOKS: dict[str, Look] = {
     "needles": Look((0.16, 0.33, 0.20)),
     "bush": Look((0.27, 0.42, 0.19)),
     "gravel": Look((0.74, 0.72, 0.69), "gravel"),
-    "contact shadow": Look((0.05, 0.045, 0.04), roughness=1.0, opacity=0.14),
+    "contact shadow": Look((0.05, 0.045, 0.04), roughness=1.0, opacity=0.095),
     "soffit": Look((0.93, 0.91, 0.87)),
 }
 _FLOORS: dict[RoomUse, str] = {
