@@ -11,7 +11,7 @@ use veduta_grammar::shape::Asset;
 
 use crate::assets::MissingAsset;
 use crate::derivation::edit_faults;
-use crate::grammar::Failed;
+use crate::lot_outcome::Failed;
 
 /// Polygons of a piece that may be repeated: a window has some dozens.
 const MOST_IN_PIECE: u32 = 96;

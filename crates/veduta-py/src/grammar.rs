@@ -8,8 +8,7 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use veduta_grammar::engine::{
-    asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Files as FileTable,
-    Limits, Options, State,
+    asset_names, lower_in_style, Code, Expr, ExprKind, Files as FileTable, Limits, Options,
 };
 use veduta_grammar::{check_from, Checked, Program, Source, Style};
 
@@ -17,10 +16,10 @@ use crate::assets::{
     asset_of, labels_of, pairs, Assets, GivenLabels, GivenSlots, MissingAsset, Textures,
 };
 use crate::derivation::{overrides_of, GivenEdit};
-use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
+use crate::derived_lot::{to_python, DerivedLot, Outcome};
 use crate::given::{values, Given};
 use crate::interruptible::of_each_lot;
-use crate::limits::{limits_of, option_of, GrammarLimits};
+use crate::limits::{limits_of, GrammarLimits};
 use crate::pace::pace;
 use crate::rules::{program_of, rendered, Files};
 
@@ -37,7 +36,7 @@ const WANTED: &str = "each lot needs a seed, attributes and edits";
 pub struct GrammarRules {
     pub code: Code,
     /// The files, as faults number them.
-    sources: Vec<Source>,
+    pub sources: Vec<Source>,
     assets: RwLock<Arc<Assets>>,
     files: RwLock<Arc<FileTable>>,
     /// What is built otherwise than the rules say, as text; empty where nothing is.
@@ -286,13 +285,6 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
-/// Why there is nothing, and the asset that is wanted where one is.
-#[derive(Debug, Clone)]
-pub struct Failed {
-    pub why: String,
-    pub missing_asset: Option<String>,
-}
-
 fn read(files: &Files, style: Option<&str>, start: Option<&str>) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
     let program = program_of(files).ok_or_else(missing)?;
@@ -376,50 +368,6 @@ impl GrammarRules {
             neighbours: Vec::new(),
         });
         Ok(each.collect())
-    }
-
-    /// What the rules make of a lot.
-    pub fn one(&self, lot: &Rings, options: &Options, rule: usize) -> Result<Derived, Failed> {
-        let start = self.start_shape(lot, options)?;
-        let tree = derive(&self.code, rule, start, options);
-        let tree = tree.map_err(|fault| self.failed(fault))?;
-        Ok(derived_of(&tree, &self.code))
-    }
-
-    /// The shape that a lot's derivation starts with.
-    pub fn start_shape(&self, lot: &Rings, options: &Options) -> Result<State, Failed> {
-        let form = lot_form(lot).ok_or_else(|| Failed {
-            why: "the lot encloses nothing".to_string(),
-            missing_asset: None,
-        })?;
-        Ok(State::new(form, (options.seed & 0xffff_ffff) as u32))
-    }
-
-    pub fn failed(&self, fault: Fault) -> Failed {
-        Failed {
-            why: self.told(&fault),
-            missing_asset: fault.missing_asset.map(|name| name.to_string()),
-        }
-    }
-
-    /// A fault with its place in the file, and the option that would allow more.
-    pub fn told(&self, fault: &Fault) -> String {
-        let source = &self.sources[fault.unit.unwrap_or(0)];
-        let place = source.position(fault.span.start);
-        let (name, message) = (source.name(), &fault.message);
-        let told = format!("{name}:{}:{}: {message}", place.line, place.column);
-        match fault.over {
-            Some(limit) => format!("{told}; {} allows more", option_of(limit)),
-            None => told,
-        }
-    }
-
-    /// A fault as Python has it: with the name of the asset where one is wanted.
-    pub fn raised(&self, fault: &Fault) -> PyErr {
-        match &fault.missing_asset {
-            Some(name) => AssetWanted::new_err((self.told(fault), name.to_string())),
-            None => GrammarFault::new_err(self.told(fault)),
-        }
     }
 
     /// The files that the rules may ask for.

@@ -22,6 +22,7 @@ mod interruptible;
 mod limits;
 mod linking;
 mod localise;
+mod lot_outcome;
 mod occupancy;
 mod pace;
 mod polygons;

@@ -9,9 +9,10 @@ use veduta_grammar::engine::{from_place, occluders, Neighbour, Occluder};
 
 use crate::derivation::GivenEdit;
 use crate::given::Given;
-use crate::grammar::{Failed, GrammarRules, Rings};
+use crate::grammar::{GrammarRules, Rings};
 use crate::interruptible::of_each_lot;
 use crate::limits::{limits_of, GrammarLimits};
+use crate::lot_outcome::Failed;
 
 /// Numbers of lots in `Surroundings`, and how far their frames lie from that of the lot beside them
 /// (m, z up).
