@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from drive.drawn_street import SENSOR_M, WALL_M, path, street
+from drive.drawn_street import SENSOR_M, WALL_M, grid, path, street
 
 from veduta.drive.build.fill import Source, fill_background
 from veduta.drive.build.frame import ColumnFrame, column_frame, sort_into_columns
@@ -68,6 +68,19 @@ def test_below_a_car_it_is_solid_down_to_the_road(layers: Layers) -> None:
     heights, _ = np.histogram(z[car], np.arange(0.0, 1.3, 0.2))
     assert heights.min() > 0.5 * heights.max()
     assert len(np.unique(np.floor(y[car] / 0.1))) > 28
+
+
+def test_what_hangs_over_the_pavement_is_not_solid_below(frame: ColumnFrame) -> None:
+    """An awning hides no shop window below it."""
+    points, _ = street()
+    awning = grid(-np.arange(7.0, 8.0, 0.1), np.arange(3.0, 6.0, 0.05), np.array([1.7]))
+    sorted_points = sort_into_columns(np.concatenate([points, awning]), frame, 1.0, FARTHEST_M)
+    found = split_layers(sorted_points, frame, FARTHEST_M)
+    hanging = (found.points.index >= len(points)) & (found.kind == PointClass.FOREGROUND)
+    assert hanging.sum() > 100
+    below = solid_below(found)
+    assert not ((below[:, 1] > 2.9) & (below[:, 1] < 6.1)).any()
+    assert ((below[:, 1] > 8.0) & (below[:, 1] < 11.0)).any()
 
 
 def test_filled_background_lies_in_the_true_planes(layers: Layers, frame: ColumnFrame) -> None:

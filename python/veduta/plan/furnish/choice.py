@@ -19,7 +19,7 @@ _FAMILY = "kitchen-"
 """Types that begin so have fronts of one kind: the end of the object's name."""
 
 _IN_TURN = frozenset({"picture"})
-"""Types whose objects take turns, each before one comes again."""
+"""Types whose objects take turns: each is tried on a wall before one comes again."""
 
 
 @dataclass

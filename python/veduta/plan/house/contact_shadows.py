@@ -69,8 +69,8 @@ def add_contact_shadows(space: Space, catalogue: Catalogue, sculptor: Sculptor) 
         rugs = [one for one in own if one.above_m < FLAT_M >= one.size_m[2]]
         for number, layer in enumerate(layers):
             rise = FINISH_M + _RISE_M + number * _STEP_M
-            for region, height in _laid(layer, rugs):
-                _lay(region, rise + height, space, sculptor, Surface(feature, LOOK))
+            for piece, height in _laid(layer, rugs):
+                _lay(piece, rise + height, space, sculptor, Surface(feature, LOOK))
 
 
 def _lay(
