@@ -21,6 +21,8 @@ export interface Tour {
   /** Unit vectors, one for each time. */
   readonly directions: readonly Vec3[];
   readonly stretches: readonly Stretch[];
+  /** Ids of the doors that stay closed while it plays: open, their leaves would bar its way. */
+  readonly shut: ReadonlySet<string>;
 }
 
 /** Where the person is in which of the tours. */
@@ -42,6 +44,7 @@ export interface TourView {
 /** More keys than anybody would sit through; a larger number is a broken or hostile file. */
 const MOST_KEYS = 100_000;
 const MOST_STRETCHES = 10_000;
+const MOST_SHUT = 10_000;
 /** How far a direction's length may be from 1. */
 const TOLERANCE = 1e-2;
 /** Nearer to each other than this two directions are mixed straight. */
@@ -66,6 +69,8 @@ export function readTour(value: unknown, which: string, broken: (fault: string) 
   if (directions.length !== times.length || !directions.every(isUnit)) throw bad("directions");
   const stretches = tour.stretches ?? [];
   if (!Array.isArray(stretches) || stretches.length > MOST_STRETCHES) throw bad("stretches");
+  const shut: unknown = tour.shut ?? [];
+  if (!Array.isArray(shut) || shut.length > MOST_SHUT || !shut.every((door) => typeof door === "string")) throw bad("shut");
   return {
     id,
     name,
@@ -73,6 +78,7 @@ export function readTour(value: unknown, which: string, broken: (fault: string) 
     eyes,
     directions,
     stretches: stretches.map((stretch) => readStretch(stretch, () => bad("stretches"))),
+    shut: new Set(shut),
   };
 }
 

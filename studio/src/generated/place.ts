@@ -340,6 +340,12 @@ export interface Tour {
    * @maxItems 10000
    */
   stretches?: TourStretch[];
+  /**
+   * ids of features: doors that stay closed on it, as their leaves bar its way
+   *
+   * @maxItems 10000
+   */
+  shut?: string[];
 }
 /**
  * A time of a tour in one room, or in none (`room` is null).

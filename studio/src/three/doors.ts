@@ -19,6 +19,7 @@ interface Leaf {
 
 interface Door {
   readonly feature: FeatureRef;
+  readonly id: string;
   readonly doorway: Doorway;
   readonly leaves: readonly Leaf[];
   share: number;
@@ -36,9 +37,9 @@ export class Doors implements Obstacles {
 
   /** Takes over those of a part that has come. They are closed at first. */
   take(parts: readonly LoadedPart[], part: number): void {
-    const movers = parts[part]?.movers ?? [];
+    const { movers = [], table } = parts[part] ?? {};
     const rows = new Set(movers.map(({ row }) => row));
-    for (const row of rows) this.#doors.push(doorOf(movers, part, row));
+    for (const row of rows) this.#doors.push(doorOf(movers, part, row, table?.rows[row]?.id ?? ""));
   }
 
   get faceCount(): number {
@@ -49,11 +50,15 @@ export class Doors implements Obstacles {
     return this.#doors.map(({ feature, doorway, share }) => ({ feature, foot: doorway.foot, share }));
   }
 
-  /** Opens those that should be open and closes the others; true while one of them moves. */
-  advance(visitor: Visitor | null, areHeldOpen: boolean, seconds: number): boolean {
+  /**
+   * Opens those that should be open and closes the others; true while one of them moves. Those whose ids are
+   * in `shut` stay closed, whoever comes.
+   */
+  advance(visitor: Visitor | null, areHeldOpen: boolean, seconds: number, shut: ReadonlySet<string>): boolean {
     let moves = false;
     for (const door of this.#doors) {
-      const wanted = areHeldOpen || (visitor !== null && isWanted(door.doorway, visitor, door.share > 0));
+      const comes = visitor !== null && isWanted(door.doorway, visitor, door.share > 0);
+      const wanted = !shut.has(door.id) && (areHeldOpen || comes);
       const share = swung(door.share, wanted, seconds);
       if (share === door.share) continue;
       door.share = share;
@@ -90,7 +95,7 @@ export class Doors implements Obstacles {
   }
 }
 
-function doorOf(all: readonly Mover[], part: number, row: number): Door {
+function doorOf(all: readonly Mover[], part: number, row: number, id: string): Door {
   const movers = all.filter((mover) => mover.row === row);
   for (const mover of movers) mover.pose(0);
   const leaves = movers.map((mover): Leaf => {
@@ -98,7 +103,7 @@ function doorOf(all: readonly Mover[], part: number, row: number): Door {
     return { mover, solid: new Solid(soupOf([alone], part)), closed: mover.place.clone() };
   });
   const doorway = doorwayOf(movers.flatMap(cornersOf));
-  return { feature: { part, row }, doorway, leaves, share: 0 };
+  return { feature: { part, row }, id, doorway, leaves, share: 0 };
 }
 
 function cornersOf({ meshes }: Mover): Vec3[] {

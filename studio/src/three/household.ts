@@ -3,6 +3,7 @@ import { Group } from "three";
 import type { Daylight } from "../core/daylight.ts";
 import type { House } from "../core/house.ts";
 import type { StudioState } from "../core/state.ts";
+import type { Tour } from "../core/tour.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
 import { type Whereabouts, whereaboutsOf } from "../core/whereabouts.ts";
@@ -17,18 +18,21 @@ export interface LoadedHouse {
 
 /** Below this share of the day's light lamps are lit in a house that is seen from outside. */
 const EVENING = 0.5;
+const NONE: ReadonlySet<string> = new Set();
 
 export class Household {
   /** Light around the lamps. */
   readonly group = new Group();
   readonly #houses: House[] = [];
   readonly #doorsNow: () => Doors | null;
+  readonly #tours: readonly Tour[];
   readonly #lights: RoomLights[] = [];
   #day = 1;
 
-  /** `doors` are those that there are now. */
-  constructor(houses: readonly LoadedHouse[], doors: () => Doors | null) {
+  /** `doors` are those that there are now, `tours` those of the place. */
+  constructor(houses: readonly LoadedHouse[], doors: () => Doors | null, tours: readonly Tour[]) {
     this.#doorsNow = doors;
+    this.#tours = tours;
     for (const house of houses) this.take(house);
   }
 
@@ -62,8 +66,11 @@ export class Household {
   /** True for each of doors and lamps while it changes. */
   advance(state: StudioState, walker: Walker, eye: Vec3, seconds: number): { doors: boolean; lamps: boolean } {
     const walks = state.mode === "walk";
-    const heading = state.tour?.playing === true ? null : walker.heading;
-    const doors = this.doors?.advance(walks ? { feet: walker.feet, heading } : null, state.doors === "open", seconds) ?? false;
+    const toured = state.tour?.playing === true ? state.tour : null;
+    const heading = toured === null ? walker.heading : null;
+    const shut = this.#tours[toured?.which ?? -1]?.shut ?? NONE;
+    const visitor = walks ? { feet: walker.feet, heading } : null;
+    const doors = this.doors?.advance(visitor, state.doors === "open", seconds, shut) ?? false;
     const here = walks ? this.whereabouts(walker.feet) : null;
     let lamps = false;
     for (const [house, lights] of this.#lights.entries()) {

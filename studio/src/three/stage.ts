@@ -102,7 +102,8 @@ export class Stage {
     this.animals = new Animals(place.animals, parts, groundAt, solid);
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
-    this.household = new Household(houses, () => (this.solid instanceof PlaceSolid ? this.solid.doors : null));
+    const doors = (): PlaceSolid["doors"] => (this.solid instanceof PlaceSolid ? this.solid.doors : null);
+    this.household = new Household(houses, doors, place.tours);
     // A place that is nothing but its ground, such as a map, is looked at from far: without haze.
     if (buildings.length > 0 || town !== null) for (const slot of parts) layIfGround(slot);
     this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces, this.household.group);

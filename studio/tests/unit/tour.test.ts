@@ -25,6 +25,7 @@ const OTHER: Tour = {
   eyes: [[0, 5, 1.7], [0, 9, 1.7]],
   directions: [[0, 1, 0], [0, 1, 0]],
   stretches: [],
+  shut: new Set(),
 };
 
 function tour(change: Record<string, unknown> = {}): Tour {
@@ -37,6 +38,8 @@ describe("reading a tour", () => {
     expect(tour().stretches[1]).toEqual({ room: "r1", name: "Hall", start_s: 2, end_s: 5 });
     expect(durationOf(tour())).toBe(5);
     expect(tour({ stretches: undefined }).stretches).toEqual([]);
+    expect([...tour().shut]).toEqual([]);
+    expect([...tour({ shut: ["house/robe"] }).shut]).toEqual(["house/robe"]);
   });
 
   it.each([
@@ -48,6 +51,8 @@ describe("reading a tour", () => {
     ["eyes", [[0, 0, 1], [0, 0], [0, 0, 1], [0, 0, 1]]],
     ["directions", [[1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 1, 0]]],
     ["stretches", [{ name: "Hall", start_s: 0 }]],
+    ["shut", "house/robe"],
+    ["shut", [3]],
     ["id", 3],
   ])("refuses a tour with a bad %s", (field, value) => {
     expect(() => tour({ [field]: value })).toThrow(`tour 1 has no proper "${field}"`);
