@@ -100,7 +100,8 @@ impl Diagnostic {
     }
 }
 
-/// Collects the faults of one file, up to [`MAX_DIAGNOSTICS`].
+/// Collects the faults of one file. Of many, [`MAX_DIAGNOSTICS`] are told, errors before warnings:
+/// which are errors is known when all are there.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
@@ -108,9 +109,7 @@ pub struct Diagnostics {
 
 impl Diagnostics {
     pub fn add(&mut self, diagnostic: Diagnostic) {
-        if self.list.len() < MAX_DIAGNOSTICS {
-            self.list.push(diagnostic);
-        }
+        self.list.push(diagnostic);
     }
 
     pub fn error(&mut self, span: Span, message: impl Into<String>) {
@@ -135,12 +134,15 @@ impl Diagnostics {
         softened.collect()
     }
 
+    /// Whether there are as many as are told: more need no hints.
     pub fn is_full(&self) -> bool {
         self.list.len() >= MAX_DIAGNOSTICS
     }
 
-    /// The faults in the order of the file.
+    /// The faults that are told, in the order of the file.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
+        self.list.sort_by_key(|one| (!one.is_error(), one.span));
+        self.list.truncate(MAX_DIAGNOSTICS);
         self.list.sort_by_key(|one| one.span);
         self.list
     }

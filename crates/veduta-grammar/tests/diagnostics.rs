@@ -391,6 +391,26 @@ fn what_nothing_reaches_refuses_nothing() {
 }
 
 #[test]
+fn many_warnings_hide_no_error() {
+    use veduta_grammar::check_from;
+    let old: String = (0..150)
+        .map(|number| format!("Old{number} --> boxxN(3)\n"))
+        .collect();
+    let text = format!("Lot --> Mid\n{old}Mid --> extrud(3) B.");
+    let program = Program::single(Source::new("a", &text));
+    for (start, wanted) in [(None, "extrud"), (Some("Old110"), "boxxN")] {
+        let checked = check_from(&program, start);
+        let errors: Vec<&str> = (checked.diagnostics.iter().flatten())
+            .filter(|one| one.is_error())
+            .map(|one| one.message.as_str())
+            .collect();
+        assert_eq!(errors.len(), 1, "{start:?}");
+        assert!(errors[0].contains(wanted), "{errors:?}");
+        assert_eq!(checked.diagnostics[0].len(), 100);
+    }
+}
+
+#[test]
 fn a_broken_rule_stops_the_derivation_that_reaches_it() {
     use veduta_grammar::engine::{derive, lower, Options};
     let text = "Lot --> A.\nOld --> Older\nOlder --> extrud(3) B.";

@@ -31,7 +31,7 @@ def sample(arguments: list[str]) -> int:
         raise InputError(
             f"--count {call.count}", f"is not from 1 to {MAX_SAMPLES}", "Give another."
         )
-    rules = parse_rules(call.rules, style=call.derive.style)
+    rules = parse_rules(call.rules, style=call.derive.style, start=call.derive.start)
     given = read_attributes(call.attr)
     options = GrammarOptions(
         derive=call.derive, limits=call.limits, lots=call.read, attributes=given
@@ -71,7 +71,7 @@ def tree(arguments: list[str]) -> int:
         path, _ = parse_path(call.at)
     except EditFault as fault:
         raise InputError("--at", str(fault), "Take one from the tree, or / for all.") from fault
-    rules = parse_rules(call.rules, style=call.derive.style)
+    rules = parse_rules(call.rules, style=call.derive.style, start=call.derive.start)
     given = read_attributes(call.attr)
     options = GrammarOptions(
         derive=call.derive, limits=call.limits, lots=call.read, attributes=given

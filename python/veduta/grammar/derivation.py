@@ -334,18 +334,18 @@ class Shape:
         return self._tree.children(self._number)
 
 
-def parse(rules: str | Path, *, style: str | None = None) -> Rules:
+def parse(rules: str | Path, *, style: str | None = None, start: str | None = None) -> Rules:
     """The rules of a file, of a style of Veduta's, or of a text; InputError with all faults.
 
     A text is what has an arrow (`Lot --> extrude(10)`) or several lines; what it imports is looked
     for in the working folder. style: one of the styles in the file (`style Name`); `Default` where
-    it is None.
+    it is None. start: the rule that derivations begin with; what it never reaches refuses nothing.
     """
     if isinstance(rules, str) and ("-->" in rules or "\n" in rules):
         files = RuleFiles(Path(TEXT), ((TEXT, rules),), SearchPath.of(Path()))
     else:
         files = read_rules(find_rules(str(rules)))
-    core, library = compile_rules(files, style), Library(files.search)
+    core, library = compile_rules(files, style, start), Library(files.search)
     library.add_written_to(core)
     asked = project_files(files.search, core)
     asked.add_to(core)

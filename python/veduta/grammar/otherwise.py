@@ -47,7 +47,7 @@ def told_computed(missing: Collection[str]) -> list[str]:
     count = "1 asset" if len(missing) == 1 else f"{len(missing)} assets"
     told = [f"{count} of computed names cannot be had: a box stands for each"]
     told += [f"  {one}" for one in first]
-    return told + ([f"  and {more} more: report.json names them"] if more else [])
+    return told + ([f"  and {more} more"] if more else [])
 
 
 def _missing_assets(rules: RuleFiles, compiled: _core.GrammarRules) -> list[str]:

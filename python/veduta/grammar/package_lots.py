@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import difflib
+import shlex
 import sqlite3
 import time
 from collections.abc import Iterator
@@ -70,7 +71,7 @@ def package_outlines(path: Path, layer_name: str | None, found: Found) -> Outlin
 
 def _damaged(path: Path, fault: str) -> InputError:
     """What a program that reads it cannot save anew."""
-    own, new = path.name, f"{path.stem}-whole.gpkg"
+    own, new = shlex.quote(path.name), shlex.quote(f"{path.stem}-whole.gpkg")
     return InputError(
         path, fault,
         "It is damaged: fetch or copy it again. What is left of it comes out of"
@@ -97,7 +98,8 @@ def _bound_time(base: sqlite3.Connection) -> None:
 def _layer(path: Path, base: sqlite3.Connection, wanted: str | None) -> _Layer:
     tables = {row[0] for row in base.execute("SELECT name FROM sqlite_master WHERE type='table'")}
     if "gpkg_geometry_columns" not in tables:
-        remedy = f"If it is one of SpatiaLite, `ogr2ogr -f GPKG lots.gpkg {path.name}` converts it."
+        own = shlex.quote(path.name)
+        remedy = f"If it is one of SpatiaLite, `ogr2ogr -f GPKG lots.gpkg {own}` converts it."
         raise InputError(path, "is a database, but no GeoPackage", remedy)
     rows = base.execute(
         "SELECT table_name, column_name, geometry_type_name, srs_id FROM gpkg_geometry_columns"

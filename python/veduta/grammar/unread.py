@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -31,8 +32,8 @@ _REMEDIES[".db"] = _REMEDIES[".sqlite"]
 
 def remedy_for(path: Path, read: Sequence[str]) -> str:
     """What turns a file of this name into one that is read. read: the endings that are read."""
-    known = _REMEDIES.get(path.suffix.lower())
+    known, own = _REMEDIES.get(path.suffix.lower()), shlex.quote(path.name)
     if known is not None:
-        return known.format(path=path.name)
+        return known.format(path=own)
     also = f"Read are GeoJSON, GeoPackage, CityJSON, OBJ and {', '.join(read)};"
-    return f"{also} `ogr2ogr -f GPKG lots.gpkg {path.name}` converts most others."
+    return f"{also} `ogr2ogr -f GPKG lots.gpkg {own}` converts most others."

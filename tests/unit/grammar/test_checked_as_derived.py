@@ -72,3 +72,15 @@ def test_rules_of_other_lots_are_tried_on_those(tmp_path: Path) -> None:
     assert both(text, tmp_path) == (0, 0)
     (tmp_path / "other").mkdir()
     assert both(text, tmp_path / "other", "--lots", str(lots)) == (2, 2)
+
+
+def test_a_tree_begins_where_it_is_told_to(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A fault that the rule asked for never reaches refuses none of the three."""
+    path = tmp_path / "main.cga"
+    path.write_text("Lot --> boxx(3)\nGood --> extrude(3) A.\n")
+    assert main(["grammar", "check", str(path), "--start", "Good"]) == 0
+    assert main(["grammar", "tree", str(path), "--start", "Good"]) == 0
+    assert "A" in capsys.readouterr().out
+    assert main(["grammar", "tree", str(path)]) == 2

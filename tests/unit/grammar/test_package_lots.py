@@ -130,6 +130,10 @@ def test_what_is_no_package_is_told(tmp_path: Path) -> None:
     torn.write_bytes(other.read_bytes()[:5000])
     with pytest.raises(InputError, match=r"torn\.gpkg.*sqlite3 torn\.gpkg \.recover"):
         read_lots(torn)
+    spaced = tmp_path / "my lots; old.gpkg"
+    spaced.write_bytes(torn.read_bytes())
+    with pytest.raises(InputError, match=r"sqlite3 'my lots; old\.gpkg' \.recover"):
+        read_lots(spaced)
     empty = package(tmp_path / "empty.gpkg", [])
     with pytest.raises(InputError, match="no lot that can be used"):
         read_lots(empty)

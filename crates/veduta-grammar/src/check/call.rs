@@ -71,9 +71,6 @@ impl Checker<'_> {
         if let Place::Missing { unit, link } = place {
             return self.reach.miss(unit, link, name.span);
         }
-        if self.diagnostics.is_full() {
-            return;
-        }
         if call.block.is_none() && self.is_grafted(name, call.args().len()) {
             return self.resolve(name, Target::Leaf);
         }
@@ -91,7 +88,12 @@ impl Checker<'_> {
                 return self.report_count(name, &counts, call.args().len());
             }
         }
-        let hint = self.suggest_rule(name);
+        let is_full = self.diagnostics.is_full();
+        let hint = if is_full {
+            None
+        } else {
+            self.suggest_rule(name)
+        };
         let is_operation = text.starts_with(|first: char| first.is_ascii_lowercase())
             && (text.contains('.') || !call.args().is_empty());
         if call.block.is_some() || is_operation {
@@ -100,7 +102,7 @@ impl Checker<'_> {
             return self.diagnostics.add(fault.with_hint(hint));
         }
         self.resolve(name, Target::Leaf);
-        if self.is_broken {
+        if self.is_broken || is_full {
             return;
         }
         let message = format!("there is no rule `{text}`: the shape is left as it is");

@@ -146,17 +146,19 @@ impl Checker<'_> {
         if let Place::Missing { unit, link } = place {
             return self.reach.miss(*unit, *link, name.span);
         }
-        if self.diagnostics.is_full() {
-            return;
-        }
         let text = self.text(name);
         let message = match count {
             0 => format!("there is no attribute, constant, parameter or function `{text}`"),
             _ => format!("there is no function `{text}`"),
         };
-        let hint = self.suggest_value(name);
+        let may_be_told = attributes::tells_of_shape(text);
+        let hint = if may_be_told || !self.diagnostics.is_full() {
+            self.suggest_value(name)
+        } else {
+            None
+        };
         // No slip of the pen: it is taken for 0 and told of where code is made of it.
-        if hint.is_none() && attributes::tells_of_shape(text) {
+        if hint.is_none() && may_be_told {
             return;
         }
         self.diagnostics

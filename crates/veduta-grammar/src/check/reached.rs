@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::definitions::{Definition, Definitions, Role};
 use crate::diagnostic::Diagnostics;
+use crate::limits::MAX_DIAGNOSTICS;
 use crate::{Diagnostic, Names, Program, Span};
 
 const WHY: &str = "nothing reaches this rule";
@@ -99,6 +100,9 @@ impl Settling<'_> {
                     found.told[unit].extend(softened.map(|(_, told)| told));
                 }
             }
+        }
+        for told in &mut found.told {
+            told.truncate(MAX_DIAGNOSTICS);
         }
         found
     }
