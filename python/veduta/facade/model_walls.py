@@ -96,7 +96,7 @@ def _outlines(corners: Floats, own: CutParameters) -> list[shapely.Polygon]:
     cuts = [_cut(corners, low + float(share) * (high - low), own) for share in shares]
     places = shapely.get_parts(shapely.union_all([one for cut in cuts for one in cut])).tolist()
     found = [
-        _simplest([one for cut in cuts for one in cut if one.intersects(place)], own)
+        _simplest([one for cut in cuts for one in cut if one.intersection(place).area > 0.0], own)
         for place in places
         if isinstance(place, shapely.Polygon)
     ]
@@ -105,8 +105,13 @@ def _outlines(corners: Floats, own: CutParameters) -> list[shapely.Polygon]:
 
 def _simplest(cuts: list[shapely.Polygon], own: CutParameters) -> shapely.Polygon:
     """Of the cuts of one building that are about as large as most the one of fewest corners."""
-    least = own.large * float(np.median([cut.area for cut in cuts]))
-    return min((cut for cut in cuts if cut.area >= least), key=shapely.get_num_coordinates)
+    median = float(np.median([cut.area for cut in cuts]))
+    nearest = min(cuts, key=lambda cut: abs(cut.area - median))
+    like = [cut for cut in cuts if own.large <= cut.area / median <= 1.0 / own.large]
+    return min(
+        like or [nearest],  # of an even number none may be near to the median
+        key=lambda cut: (shapely.get_num_coordinates(cut), abs(cut.area - median)),
+    )
 
 
 def _cut(corners: Floats, height_m: float, own: CutParameters) -> list[shapely.Polygon]:

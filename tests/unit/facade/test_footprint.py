@@ -321,6 +321,48 @@ def test_the_walls_of_a_model_are_found_behind_its_windows_and_below_its_eaves(
         read_wall(model, OntoOptions(lot=lot, edge=4))
 
 
+def _boxes(
+    path: Path, *sizes: tuple[tuple[float, float, float], tuple[float, float, float]]
+) -> Path:
+    """Boxes from their low corner to their high one (m, z up), as a model with y up."""
+    up_along_y = [[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]]
+    made = []
+    for low, high in sizes:
+        extents = np.subtract(high, low)
+        place = np.eye(4)
+        place[:3, 3] = np.add(low, high) / 2.0
+        made.append(trimesh.creation.box(extents, place))
+        made[-1].apply_transform(up_along_y)
+    return written(path, *made)
+
+
+@pytest.mark.parametrize(
+    "ground",
+    [((-6.0, -6.0, 0.0), (16.0, 16.0, 1.0)), ((-30.0, -30.0, 0.0), (40.0, 40.0, 0.5))],
+    ids=["podium", "slab"],
+)
+def test_what_a_house_stands_on_is_no_wall(
+    tmp_path: Path, ground: tuple[tuple[float, float, float], tuple[float, float, float]]
+) -> None:
+    model = _boxes(tmp_path / "on.glb", ground, ((0.0, 0.0, ground[1][2]), (10.0, 10.0, 9.0)))
+    walls = [read_wall(model, OntoOptions(edge=edge)) for edge in range(4)]
+    assert [wall.width_m for wall in walls] == pytest.approx([10.0] * 4, abs=0.05)
+
+
+def test_houses_that_touch_at_a_corner_are_two(tmp_path: Path) -> None:
+    model = _boxes(
+        tmp_path / "two.glb",
+        ((0.0, 0.0, 0.0), (10.0, 10.0, 8.0)),
+        ((10.0, 10.0, 0.0), (20.0, 19.0, 8.0)),
+    )
+    widths = {
+        round(read_wall(model, OntoOptions(lot=lot, edge=edge)).width_m)
+        for lot in ("1", "2")
+        for edge in range(4)
+    }
+    assert widths == {9, 10}
+
+
 def test_a_model_without_walls_and_a_text_one_are_refused(tmp_path: Path) -> None:
     flat = trimesh.Trimesh([(0, 0, 0), (9, 0, 0), (0, 0, 9)], [(0, 1, 2)])
     written(tmp_path / "flat.glb", flat)
