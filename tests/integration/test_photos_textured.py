@@ -43,6 +43,11 @@ def write_control(path: Path) -> None:
 
 
 @pytest.mark.slow
+def faults(told: str) -> list[str]:
+    """What is wrong, of what is said: a slow machine hears how far it is, too."""
+    return [line for line in told.splitlines() if line.startswith(("error", "warning"))]
+
+
 def test_a_model_that_photos_lie_in_is_textured(tmp_path: Path, scene: Path) -> None:
     write_model(tmp_path / "lots.geojson")
     write_control(tmp_path / "gcp.txt")
@@ -50,7 +55,7 @@ def test_a_model_that_photos_lie_in_is_textured(tmp_path: Path, scene: Path) -> 
     model = ("--model", tmp_path / "lots.geojson", "--crs", "EPSG:25832")
     told = (*QUICK, *model, "--gcp", tmp_path / "gcp.txt")
     done = veduta("photos", scene, "-o", out, *told)
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (done.returncode, faults(done.stderr)) == (0, [])
     measures = read_json(out / "report.json")["measures"]
     assert measures["faces_textured"] >= 2
     assert 0.003 < measures["texel_mean_m"] < 0.05
@@ -66,6 +71,6 @@ def test_a_model_that_photos_lie_in_is_textured(tmp_path: Path, scene: Path) -> 
     shutil.copytree(out / "sparse", tmp_path / "sparse")
     told = ("--from-colmap", tmp_path / "sparse", "--no-texture", *model)
     done = veduta("photos", scene, "-o", out, *told, "--force")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (done.returncode, faults(done.stderr)) == (0, [])
     left = {path.name for path in out.iterdir()}
     assert not left & {"textures", "parts", "model.city.json", "tileset.json", "frames"}

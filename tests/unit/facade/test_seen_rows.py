@@ -166,10 +166,12 @@ def test_a_foot_of_many_storeys_is_too_deep() -> None:
 
 
 def test_a_shop_above_windows_of_the_ground_floor_is_their_sign() -> None:
-    sign = SeenElement("shop", 0, 210, 100, 225, 0.7)
+    sign = SeenElement("shop", 0, 203, 100, 225, 0.7)
     panes = [SeenElement("window", x, 228, x + 25, 280, 0.8) for x in (5, 40, 70)]
     shop = SeenElement("shop", 110, 215, 200, 295, 0.7)
     kept = on_their_floors([sign, *panes, shop], [0, 100, 200])
     assert kept == [*panes, shop]
-    awning = SeenElement("shop", 0, 210, 100, 225, 0.7)
+    awning = SeenElement("shop", 0, 203, 100, 225, 0.7)
     assert awning in on_their_floors([awning, panes[0], shop], [0, 100, 200])
+    low = SeenElement("shop", 0, 210, 100, 225, 0.7)
+    assert low not in on_their_floors([low, panes[0], shop], [0, 100, 200])
