@@ -163,6 +163,18 @@ impl Definitions {
         (0..self.rules.len()).filter(move |index| is_start(&self.rules[*index]))
     }
 
+    /// The rule that a derivation begins with where none is named: the one that is marked so, else
+    /// the first one that takes no arguments and is none of an import, else the first one.
+    pub fn start(&self, names: &Names) -> Option<usize> {
+        let is_marked = |rule: &Definition| matches!(rule.role, Role::StartRule { .. });
+        let is_able =
+            |rule: &Definition| rule.arity == 0 && !names.text(rule.name.symbol).contains('.');
+        let marked = self.rules.iter().position(is_marked);
+        marked
+            .or_else(|| self.rules.iter().position(is_able))
+            .or((!self.rules.is_empty()).then_some(0))
+    }
+
     /// The last part of the name, and the number of parameters, of each rule that stands for one of
     /// an import.
     pub(super) fn grafts<'n>(

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use super::definitions::{Definition, Definitions, Role};
+use super::definitions::{Definition, Definitions};
 use crate::diagnostic::Diagnostics;
 use crate::limits::MAX_DIAGNOSTICS;
 use crate::{Diagnostic, Names, Program, Span};
@@ -138,16 +138,9 @@ pub(super) fn start(
     names: &Names,
     named: Option<&str>,
 ) -> Option<Place> {
-    let rules = &definitions.first()?.rules;
-    let text = |rule: &Definition| names.text(rule.name.symbol);
-    let mut called = rules.iter();
-    let called = called.position(|rule| rule.arity == 0 && Some(text(rule)) == named);
-    let is_marked = |rule: &Definition| matches!(rule.role, Role::StartRule { .. });
-    let is_able = |rule: &Definition| rule.arity == 0 && !text(rule).contains('.');
-    let found = called
-        .or_else(|| rules.iter().position(is_marked))
-        .or_else(|| rules.iter().position(is_able));
-    found
-        .or((!rules.is_empty()).then_some(0))
-        .map(|index| (0, index))
+    let main = definitions.first()?;
+    let is_named =
+        |rule: &Definition| rule.arity == 0 && Some(names.text(rule.name.symbol)) == named;
+    let called = main.rules.iter().position(is_named);
+    called.or_else(|| main.start(names)).map(|index| (0, index))
 }

@@ -79,12 +79,9 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             all.extend(new);
         }
     }
-    if lowered.code.start.is_none() {
-        let own = checked.definitions.first().map_or(0, |d| d.rules.len());
-        let mut rules = lowered.code.rules.iter().take(own);
-        let able = rules.position(|rule| rule.params.is_empty() && !rule.name.contains('.'));
-        lowered.code.start = able.or((own > 0).then_some(0));
-    }
+    // The rules of the main file are the first ones of the code.
+    let main = checked.definitions.first();
+    lowered.code.start = main.and_then(|main| main.start(&program.names));
     lowered
 }
 
@@ -251,12 +248,6 @@ impl<'a> Lowering<'a> {
     }
 
     fn rule(&mut self, rule: &ast::Rule, item: usize, definition: &Definition, code: &mut Code) {
-        if matches!(definition.role, Role::StartRule { .. })
-            && self.instance == 0
-            && code.start.is_none()
-        {
-            code.start = Some(code.rules.len());
-        }
         let (name, symbol) = (self.shared(rule.name), rule.name.symbol);
         let own = self.own().unit;
         let extended = self.extended(definition);
