@@ -145,10 +145,16 @@ def _compiled(
     files: tuple[tuple[str, str], ...], style: str | None, start: str | None, search: SearchPath
 ) -> tuple[_core.GrammarRules, Library]:
     """Compiled once in each process, with the assets and files that the rules name."""
-    rules, library = _core.GrammarRules(list(files), style, start), Library(search)
+    rules = _core.GrammarRules(list(files), style, start)
+    return rules, with_files(rules, search)
+
+
+def with_files(rules: _core.GrammarRules, search: SearchPath) -> Library:
+    """Give the rules the assets and files that they name; the library has those found later."""
+    library = Library(search)
     library.add_written_to(rules)
     project_files(search, rules).add_to(rules)
-    return rules, library
+    return library
 
 
 def deriver(

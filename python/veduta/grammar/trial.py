@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from veduta import _core
-from veduta.grammar.assets.library import Library
 from veduta.grammar.block import NOTHING
-from veduta.grammar.deriving import Deriver, attributes_of
+from veduta.grammar.deriving import Deriver, attributes_of, with_files
 from veduta.grammar.given import check_options
 from veduta.grammar.levels import FULL, levels_of
 from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.otherwise import otherwise
-from veduta.grammar.project_files import project_files
 from veduta.grammar.rules import RuleFiles, compile_rules
 from veduta.grammar.textures import texture_faults
 from veduta.run.errors import InputError
@@ -53,9 +51,7 @@ def _derived(
     given = attributes_of(lot, dict(compiled.attributes), options)
     if isinstance(given, str):
         return f"{lot.name}: {given}", []
-    library = Library(rules.search)
-    library.add_written_to(compiled)
-    project_files(rules.search, compiled).add_to(compiled)
+    library = with_files(compiled, rules.search)
     near = {lot.id: beside} if compiled.asks_beside else {}
     levels = levels_of(compiled, options.attributes.values)
     by = Deriver(compiled, library, levels, options, near)

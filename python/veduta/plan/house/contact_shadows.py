@@ -57,10 +57,12 @@ class Shade:
 def add_contact_shadows(space: Space, catalogue: Catalogue, sculptor: Sculptor) -> None:
     """The shadows of a storey's furniture, one feature for each room."""
     for room, region in space.floors:
-        own = [one for one in space.storey.furniture or () if room and one.room == room.id]
+        if room is None:
+            continue
+        own = [one for one in space.storey.furniture or () if one.room == room.id]
         standing = [one for one in own if one.above_m < FLAT_M < one.size_m[2]]
         layers = _layers([_placed(one, catalogue) for one in standing], region)
-        if room is None or all(layer.is_empty for layer in layers):
+        if all(layer.is_empty for layer in layers):
             continue
         feature = sculptor.builder.feature(
             SemanticClass.OTHER, Provenance.INVENTED, f"{space.name_of(room)} contact shadows",
