@@ -21,7 +21,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
-from PIL.ExifTags import GPS, IFD
 from pyproj import Transformer
 from record import Row, keep_or_print
 
@@ -35,6 +34,7 @@ from veduta.photos.pipeline import run_photos
 from veduta.photos.world.control_file import read_control
 from veduta.photos.world.control_fit import control_georeference
 from veduta.run.progress import Progress
+from veduta.synthetic.streets.shot import tag_position
 
 DATA = Path(os.environ.get("VEDUTA_DATA", "../shared/data")) / "cases" / "photos"
 NEAR_M = 0.25
@@ -75,11 +75,7 @@ def street(folder: Path, *, with_gps: bool) -> Street:
         exif = Image.Exif()
         if with_gps:
             east, north = to_degrees.transform(place["easting"], place["northing"])
-            exif[IFD.GPSInfo] = {
-                GPS.GPSLatitudeRef: "N", GPS.GPSLatitude: _sexagesimal(north),
-                GPS.GPSLongitudeRef: "E", GPS.GPSLongitude: _sexagesimal(east),
-                GPS.GPSAltitudeRef: b"\0", GPS.GPSAltitude: float(place["altitude"]),
-            }  # fmt: skip
+            tag_position(exif, north, east, float(place["altitude"]))
         with Image.open(path) as image:
             image.rotate(180).save(photos / name, quality=90, exif=exif)
         true[name] = (place["easting"], place["northing"])
@@ -88,11 +84,6 @@ def street(folder: Path, *, with_gps: bool) -> Street:
     model = folder / "model.geojson"
     model.write_text(json.dumps(outlines))
     return Street(photos, model, true)
-
-
-def _sexagesimal(degrees: float) -> tuple[float, float, float]:
-    minutes = (degrees - int(degrees)) * 60.0
-    return (float(int(degrees)), float(int(minutes)), (minutes - int(minutes)) * 60.0)
 
 
 def itowns(out: Path, *, with_gps: bool) -> Row:

@@ -9,11 +9,7 @@ kept as `plan-foreign`. The seeds of the first try, 31000 to 31005, are no part 
 
 from __future__ import annotations
 
-import argparse
-
-from plan_sets import seeds
-from plan_strangers import Families, judged, row_of
-from record import keep_or_print
+from plan_strangers import Families, measure
 
 from veduta.synthetic.plans.foreign.coloured import coloured_page
 from veduta.synthetic.plans.foreign.hairline import hairline_sheet
@@ -35,23 +31,8 @@ NOTES: tuple[str, ...] = ()
 
 
 def main() -> None:
-    """Read the sheets of all seeds; only a run over all is kept."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=seeds, default=SEEDS)
-    parser.add_argument("--families", nargs="+", choices=FAMILIES, default=[*FAMILIES])
-    parser.add_argument("--each", action="store_true", help="print a line for each sheet")
-    asked = parser.parse_args()
-    rows = []
-    for family in asked.families:
-        scores = []
-        for seed in asked.seeds:
-            found = judged(seed, FAMILIES[family])
-            scores += found
-            if asked.each:
-                print(seed, row_of(family, found), flush=True)
-        rows.append(row_of(family, scores))
-    whole = list(asked.seeds) == list(SEEDS) and asked.families == [*FAMILIES]
-    keep_or_print("plan-foreign", rows, NOTES, keep=whole)
+    """Measure, and print or keep the table."""
+    measure("plan-foreign", FAMILIES, SEEDS, NOTES, __doc__)
 
 
 if __name__ == "__main__":

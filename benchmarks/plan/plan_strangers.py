@@ -128,24 +128,31 @@ def row_of(family: str, scores: Sequence[tuple[Score, bool]]) -> Row:
     }
 
 
-def main() -> None:
-    """Read the sheets of all seeds; only a run over all is kept."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=seeds, default=SEEDS)
-    parser.add_argument("--families", nargs="+", choices=FAMILIES, default=[*FAMILIES])
+def measure(
+    benchmark: str, families: Families, usual: range, notes: Sequence[str], about: str | None
+) -> None:
+    """Read the sheets that the call names; only a run over all families and seeds is kept."""
+    parser = argparse.ArgumentParser(description=about)
+    parser.add_argument("--seeds", type=seeds, default=usual)
+    parser.add_argument("--families", nargs="+", choices=families, default=[*families])
     parser.add_argument("--each", action="store_true", help="print a line for each sheet")
     asked = parser.parse_args()
     rows = []
     for family in asked.families:
         scores: list[tuple[Score, bool]] = []
         for seed in asked.seeds:
-            found = judged(seed, FAMILIES[family])
+            found = judged(seed, families[family])
             scores += found
             if asked.each:
                 print(seed, row_of(family, found), flush=True)
         rows.append(row_of(family, scores))
-    whole = list(asked.seeds) == list(SEEDS) and asked.families == [*FAMILIES]
-    keep_or_print("plan-strangers", rows, NOTES, keep=whole)
+    whole = list(asked.seeds) == list(usual) and asked.families == [*families]
+    keep_or_print(benchmark, rows, notes, keep=whole)
+
+
+def main() -> None:
+    """Measure, and print or keep the table."""
+    measure("plan-strangers", FAMILIES, SEEDS, NOTES, __doc__)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ from veduta.synthetic.plans.bodies import whole_walls
 from veduta.synthetic.plans.canvas import Canvas, Image
 from veduta.synthetic.plans.furniture import draw_things, furnish
 from veduta.synthetic.plans.house import Storey
-from veduta.synthetic.plans.labels import Label, draw_label, label_box, labels_of
+from veduta.synthetic.plans.labels import Label, draw_label, labels_of, with_labels
 from veduta.synthetic.plans.names import UP
 from veduta.synthetic.plans.openings_drawn import draw_door, draw_window
 from veduta.synthetic.plans.places import swept
@@ -72,7 +72,7 @@ def draw_sheet(storey: Storey, style: Style, rng: np.random.Generator) -> Sheet:
     for stairs in storey.stairs:
         draw_stairs(canvas, style, stairs, UP[style.language])
     labels = labels_of(rng, canvas, style, storey, busy)
-    taken = unary_union([busy, *(label_box(label).buffer(0.04) for label in labels)])
+    taken = with_labels(busy, labels, 0.04)
     draw_things(canvas, style, furnish(rng, storey, style.furniture, taken))
     for label in labels:
         draw_label(canvas, style, label)

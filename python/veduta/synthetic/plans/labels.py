@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
+from shapely.ops import unary_union
 
 from veduta.synthetic.plans.canvas import Canvas, text_size_px
 from veduta.synthetic.plans.house import Room, Storey
@@ -146,3 +148,10 @@ def draw_label(canvas: Canvas, style: Style, label: Label) -> None:
 def label_box(label: Label) -> Polygon:
     """What the label covers, in metres."""
     return box(*label.box_m)
+
+
+def with_labels(
+    busy: BaseGeometry, labels: Sequence[Label], margin_m: float = 0.05
+) -> BaseGeometry:
+    """What is kept free of furniture, and around what is written so far besides."""
+    return unary_union([busy, *(label_box(label).buffer(margin_m) for label in labels)])

@@ -19,7 +19,7 @@ from veduta.synthetic.plans.drawing import kept_free
 from veduta.synthetic.plans.foreign.floors import floor_of, leaves_of, turned_leaf
 from veduta.synthetic.plans.furniture import draw_things, furnish
 from veduta.synthetic.plans.house import Storey, Use
-from veduta.synthetic.plans.labels import draw_label, label_box, labels_of
+from veduta.synthetic.plans.labels import draw_label, labels_of, with_labels
 from veduta.synthetic.plans.places import place_of
 from veduta.synthetic.plans.stock_doors import DRAWN, Pen
 from veduta.synthetic.plans.styles import Style
@@ -80,8 +80,7 @@ def coloured_page(seed: int) -> tuple[Image, list[SheetTruth]]:
                   weight=600, furniture=0.8)  # fmt: skip
     busy = kept_free(storey)
     labels = labels_of(rng, canvas, style, storey, busy)
-    for label in labels:
-        busy = busy.union(label_box(label).buffer(0.05))
+    busy = with_labels(busy, labels)
     things = furnish(rng, storey, style.furniture, busy)
     for thing in things:
         canvas.fill(thing.area, (250, 250, 250))

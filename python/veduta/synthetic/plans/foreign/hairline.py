@@ -15,7 +15,7 @@ from veduta.synthetic.plans.drawing import kept_free, with_thin_walls
 from veduta.synthetic.plans.foreign.floors import floor_of, leaves_of, turned_leaf
 from veduta.synthetic.plans.furniture import draw_things, furnish
 from veduta.synthetic.plans.house import Opening, Wall
-from veduta.synthetic.plans.labels import draw_label, label_box, labels_of
+from veduta.synthetic.plans.labels import draw_label, labels_of, with_labels
 from veduta.synthetic.plans.places import place_of
 from veduta.synthetic.plans.stock_doors import DRAWN, Pen
 from veduta.synthetic.plans.styles import Style
@@ -46,8 +46,8 @@ def hairline_sheet(seed: int) -> tuple[Image, list[SheetTruth]]:
                   furniture=float(rng.choice([0.4, 0.9])))  # fmt: skip
     busy = kept_free(storey)
     labels = labels_of(rng, canvas, style, storey, busy)
+    busy = with_labels(busy, labels)
     for label in labels:
-        busy = busy.union(label_box(label).buffer(0.05))
         draw_label(canvas, style, label)
     draw_things(canvas, style, furnish(rng, storey, style.furniture, busy))
     truth = SheetTruth(

@@ -20,7 +20,7 @@ from veduta.synthetic.plans.foreign.floors import floor_of, leaves_of, slanted, 
 from veduta.synthetic.plans.furniture import draw_things, furnish
 from veduta.synthetic.plans.hand_papers import smooth_noise
 from veduta.synthetic.plans.house import Opening, Room, Storey, Wall
-from veduta.synthetic.plans.labels import draw_label, label_box, labels_of
+from veduta.synthetic.plans.labels import draw_label, labels_of, with_labels
 from veduta.synthetic.plans.places import place_of
 from veduta.synthetic.plans.stock_doors import DRAWN, Pen
 from veduta.synthetic.plans.styles import Style
@@ -118,8 +118,7 @@ def _rooms(canvas: Canvas, storey: Storey, manner: Manner, rng: np.random.Genera
     style = Style("listing", "unseen", "en", ink=INK, pen_px=manner.pen_px, weight=600)
     busy = kept_free(storey)
     labels = labels_of(rng, canvas, style, storey, busy)
-    for label in labels:
-        busy = busy.union(label_box(label).buffer(0.05))
+    busy = with_labels(busy, labels)
     things = furnish(rng, storey, 0.85, busy)
     for thing in things:
         canvas.fill(thing.area, (214, 206, 200))

@@ -24,7 +24,13 @@ from veduta.synthetic.plans.foreign.floors import chain, crossings, feet, floor_
 from veduta.synthetic.plans.furniture import draw_things, furnish
 from veduta.synthetic.plans.hand_papers import smooth_noise
 from veduta.synthetic.plans.house import Storey
-from veduta.synthetic.plans.labels import draw_label, label_box, labels_of, spot_within
+from veduta.synthetic.plans.labels import (
+    draw_label,
+    label_box,
+    labels_of,
+    spot_within,
+    with_labels,
+)
 from veduta.synthetic.plans.places import place_of
 from veduta.synthetic.plans.stock_doors import DRAWN, Pen
 from veduta.synthetic.plans.styles import Style
@@ -65,8 +71,8 @@ def print_drawing(seed: int) -> tuple[Image, list[SheetTruth]]:
                   weight=400, furniture=0.35)  # fmt: skip
     busy = kept_free(storey)
     labels = labels_of(rng, canvas, style, storey, busy)
+    busy = with_labels(busy, labels)
     for label in labels:
-        busy = busy.union(label_box(label).buffer(0.05))
         draw_label(canvas, style, label)
     draw_things(canvas, style, furnish(rng, storey, style.furniture, busy))
     written = unary_union([label_box(label) for label in labels])

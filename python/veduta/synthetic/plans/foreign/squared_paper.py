@@ -19,7 +19,7 @@ from veduta.synthetic.plans.drawing import kept_free
 from veduta.synthetic.plans.foreign.floors import clear_size, floor_of, leaves_of
 from veduta.synthetic.plans.hand_papers import smooth_noise
 from veduta.synthetic.plans.house import Opening, Storey, Wall
-from veduta.synthetic.plans.labels import draw_label, label_box, labels_of, spot_within
+from veduta.synthetic.plans.labels import draw_label, labels_of, spot_within, with_labels
 from veduta.synthetic.plans.places import place_of
 from veduta.synthetic.plans.stock_doors import DRAWN, Pen
 from veduta.synthetic.plans.styles import Style
@@ -124,7 +124,7 @@ def _words(canvas: Canvas, storey: Storey, manner: Manner, rng: np.random.Genera
     labels = labels_of(rng, canvas, style, storey, busy)
     for label in labels:
         draw_label(canvas, style, label)
-        busy = busy.union(label_box(label).buffer(0.05))
+    busy = with_labels(busy, labels)
     height = float(np.clip(0.19 / canvas.metres_per_px, 11.0, 15.0))
     high = 1.1 * height * canvas.metres_per_px
     for room in storey.rooms:
