@@ -61,7 +61,7 @@ class CityThing:
 
 def city_things(place: Place) -> Iterator[CityThing]:
     """The buildings of a place one by one; a backdrop is none."""
-    for shape in shapes(place):
+    for shape in shapes(place, drawn_only=False):
         if shape.placed.standing.backdrop or len(shape.triangles.corners) == 0:
             continue
         if len(shape.triangles.corners) > MOST_TRIANGLES:

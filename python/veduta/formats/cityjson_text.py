@@ -19,13 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats import cityjson_frame as frame
-from veduta.place.semantics import CITYJSON_SURFACE, Provenance, SemanticClass
+from veduta.place.semantics import CITYJSON_SURFACE, DRAWN_ONLY, Provenance, SemanticClass
 
 FORM = re.compile(r'\{"type":"(Solid|MultiSurface)","lod":"([0-9.]+)"')
 GRID_M = 1e-3
 """Vertices are whole millimetres."""
 INSTALLATIONS = frozenset({SemanticClass.BALCONY, SemanticClass.CORNICE, SemanticClass.CHIMNEY})
-CLASSES = [semantic.value for semantic in SemanticClass]
+CLASSES = [f"{one.value} (drawn only)" if one in DRAWN_ONLY else one.value for one in SemanticClass]
+"""As rules name them: what is drawn only they cannot make."""
 KINDS = ["" if one in INSTALLATIONS else CITYJSON_SURFACE[one] for one in SemanticClass]
 
 Tint = tuple[int, int, int]

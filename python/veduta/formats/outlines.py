@@ -42,7 +42,7 @@ class Outline:
 
 def outlines(place: Place) -> Iterator[Outline]:
     """The outlines of the parts one by one; one without area, or a backdrop, has none."""
-    for shape in shapes(place):
+    for shape in shapes(place, drawn_only=False):
         if shape.placed.standing.backdrop or len(shape.triangles.corners) == 0:
             continue
         polygon, how = _outline(shape)

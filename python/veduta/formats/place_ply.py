@@ -30,7 +30,7 @@ def write_ply(place: Place, path: Path) -> None:
         _write_clouds(place, path)
         return
     vertices, faces, first = [np.zeros(0, _VERTEX)], [np.zeros(0, _FACE)], 0
-    for shape in shapes(place):
+    for shape in shapes(place, drawn_only=False):
         own_vertices, own_faces = _columns(shape, first)
         vertices.append(own_vertices)
         faces.append(own_faces)

@@ -26,14 +26,15 @@ from veduta.place.material import Colour, Material, Texture
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
 from veduta.place.place import Cloud, Place
-from veduta.place.semantics import Provenance, SemanticClass
+from veduta.place.semantics import DRAWN_ONLY, Provenance, SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.limits import limited
 
 _FARTHEST_M = 1e12
 _MOST_PIXELS = 2**28
 """Of all pictures of a model together."""
-_CLASSES = {one.value: one for one in SemanticClass}
+_CLASSES = {one.value: one for one in SemanticClass if one not in DRAWN_ONLY}
+"""By names of materials: what others call a shadow is a surface to us."""
 
 
 def read_glb_place(path: Path) -> Place:

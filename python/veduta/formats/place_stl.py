@@ -24,7 +24,7 @@ def write_stl(place: Place, path: Path) -> None:
     unit = "metres" if place.scale == "metres" else "unit of length unknown"
     with atomic_write(path) as temporary, temporary.open("wb") as file:
         file.write(f"Veduta, z up, {unit}".encode().ljust(_HEADER_BYTES) + bytes(4))
-        for shape in shapes(place):
+        for shape in shapes(place, drawn_only=False):
             own = shape.triangles
             corners = own.positions_m[own.corners]
             normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -21,7 +21,7 @@ from veduta.place.mesh import Mesh
 from veduta.place.mover import Mover
 from veduta.place.part import Features, Part
 from veduta.place.place import Place, PlacedPart
-from veduta.place.semantics import SemanticClass
+from veduta.place.semantics import SemanticClass, is_drawn_only
 from veduta.run.errors import InputError
 
 
@@ -80,11 +80,13 @@ class Shape:
         yield from zip(rows.tolist(), np.split(order, starts[1:]), strict=True)
 
 
-def shapes(place: Place) -> Iterator[Shape]:
-    """The parts of a place one by one, in their order."""
+def shapes(place: Place, *, drawn_only: bool = True) -> Iterator[Shape]:
+    """The parts of a place one by one, in their order; on wish without what is drawn only."""
     names = LookNames()
     for one, content in contents(place):
         own = _moved(triangles_of(content), one.standing.transform)
+        if not drawn_only:
+            own = _of_bodies(own, content.features)
         looks, look = names.of_part(content, own)
         yield Shape(one, content, own, look, looks)
 
@@ -284,6 +286,23 @@ def _joined(pieces: list[Triangles]) -> Triangles:
         ),
         np.concatenate([one.feature for one in pieces]),
         np.concatenate([one.material for one in pieces]),
+    )
+
+
+def _of_bodies(own: Triangles, features: Features) -> Triangles:
+    """The triangles of what is more than drawn, and the corners that these need."""
+    kept = ~is_drawn_only(features.class_code[own.feature])
+    if kept.all():
+        return own
+    used, corners = np.unique(own.corners[kept], return_inverse=True)
+    return Triangles(
+        own.positions_m[used],
+        own.normals[used],
+        own.uv[used],
+        None if own.colours is None else own.colours[used],
+        corners.reshape(-1, 3),
+        own.feature[kept],
+        own.material[kept],
     )
 
 

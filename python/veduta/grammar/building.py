@@ -24,7 +24,7 @@ from veduta.grammar.instancing import instances_of
 from veduta.grammar.left_out import LeftOut, left_out_by_rule
 from veduta.place.material import Material, Texture
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
-from veduta.place.semantics import Provenance, SemanticClass
+from veduta.place.semantics import DRAWN_ONLY, Provenance, SemanticClass
 
 _ROUGHNESS = {
     SemanticClass.WINDOW: 0.25,
@@ -33,7 +33,7 @@ _ROUGHNESS = {
     SemanticClass.BALCONY: 0.6,
 }
 _SAID = {said.value: said for said in Provenance}
-_KNOWN = {semantic.value: semantic for semantic in SemanticClass}
+_KNOWN = {one.value: one for one in SemanticClass if one not in DRAWN_ONLY}
 Look = tuple[float, float, float, float, str | None, str]
 
 

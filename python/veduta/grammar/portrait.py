@@ -44,6 +44,7 @@ CLASS_COLOURS: Mapping[SemanticClass, str] = {
     SemanticClass.FLOOR: "#b08d67",
     SemanticClass.CEILING: "#e6e3dc",
     SemanticClass.FURNITURE: "#7f9a86",
+    SemanticClass.SHADOW: "#5d5a63",
 }
 """sRGB. Windows blue, balconies green, cornices yellow, doors red, as in the figure that
 `sampling` names."""

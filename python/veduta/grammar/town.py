@@ -14,6 +14,7 @@ import numpy as np
 
 from veduta import _core
 from veduta.formats.boxes_glb import PlainBox, boxes_glb
+from veduta.formats.cityjson_text import CLASSES
 from veduta.formats.tile_glb import BuildingRow, tile_glb
 from veduta.formats.tiles import Box, Tile, union, write_tileset
 from veduta.grammar.edge_values import EdgeList
@@ -30,10 +31,9 @@ from veduta.grammar.levels import (
 from veduta.grammar.lot import Lot
 from veduta.grammar.outline import Attribute
 from veduta.grammar.tile_pictures import TilePicture
-from veduta.place.semantics import Provenance, SemanticClass
+from veduta.place.semantics import Provenance
 from veduta.run.atomic import write_bytes
 
-CLASSES = [semantic.value for semantic in SemanticClass]
 PROVENANCES = [provenance.value for provenance in Provenance]
 MAPPED = (FULL, PLAIN)
 """Levels that show pictures; the others have their mean colours."""
@@ -155,7 +155,8 @@ class Town:
             self.triangles += buffers.triangles
             self.dropped.update(buffers.dropped)
             for counts in buffers.counts:
-                self.classes.update(dict(zip(CLASSES, counts, strict=True)))
+                told = zip(CLASSES, counts, strict=True)
+                self.classes.update({name: count for name, count in told if count})
         return Tile(buffers.bounds, ERROR_M[level], name)
 
 

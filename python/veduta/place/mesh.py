@@ -19,7 +19,7 @@ from pydantic import JsonValue
 from veduta.place.features import feature_table
 from veduta.place.material import Material
 from veduta.place.part import Features
-from veduta.place.semantics import Provenance, SemanticClass
+from veduta.place.semantics import Provenance, SemanticClass, is_drawn_only
 from veduta.place.skin import Clip, Morph, Skin
 
 __all__ = ["Clip", "Mesh", "Morph", "Skin"]
@@ -131,13 +131,11 @@ class Mesh:
 
     @cached_property
     def feature_area_m2(self) -> NDArray[np.float64]:
-        """(f,) the summed area of each feature's triangles."""
-        return np.asarray(
-            np.bincount(
-                self.triangle_feature, weights=self.triangle_area_m2, minlength=len(self.features)
-            ),
-            dtype=np.float64,
+        """(f,) the summed area of each feature's triangles; 0 where drawn only."""
+        area = np.bincount(
+            self.triangle_feature, weights=self.triangle_area_m2, minlength=len(self.features)
         )
+        return np.where(is_drawn_only(self.features.class_code), 0.0, area)
 
     @cached_property
     def vertex_normals(self) -> NDArray[np.float32]:

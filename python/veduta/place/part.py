@@ -18,7 +18,7 @@ from veduta.place.instances import Instances
 from veduta.place.lamp import Lamp
 from veduta.place.material import Material
 from veduta.place.mover import Mover
-from veduta.place.semantics import Provenance, SemanticClass
+from veduta.place.semantics import Provenance, SemanticClass, is_drawn_only
 
 # A vertex may lie this far off its polygon's plane (m): single precision at a kilometre.
 PLANE_TOLERANCE_M = 1e-3
@@ -137,11 +137,12 @@ class Part:
 
     @cached_property
     def feature_area_m2(self) -> NDArray[np.float64]:
-        """(f,) the summed area of each feature's polygons, holes taken off."""
+        """(f,) the summed area of each feature's polygons, holes taken off; 0 where drawn only."""
         area = np.zeros(len(self.features))
         np.add.at(area, self.polygon_feature, self.triangles.polygon_area_m2)
         if self.instances is not None:
             area += self.instances.feature_area_m2(len(self.features))
+        area[is_drawn_only(self.features.class_code)] = 0.0
         return area
 
     def polygons_of_shell(self, shell: int) -> NDArray[np.int64]:

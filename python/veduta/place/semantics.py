@@ -5,6 +5,9 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Literal, get_args
 
+import numpy as np
+from numpy.typing import NDArray
+
 Label = Literal["window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"]
 """What a pixel of a facade's photo shows: the surfaces that are told apart there, and sky."""
 LABELS: tuple[Label, ...] = get_args(Label)
@@ -26,6 +29,7 @@ class SemanticClass(StrEnum):
     FLOOR = "floor"
     CEILING = "ceiling"
     FURNITURE = "furniture"
+    SHADOW = "shadow"
     # The last: to the engine it stands for all names that it does not know.
     OTHER = "other"
 
@@ -77,9 +81,18 @@ CITYJSON_SURFACE: dict[SemanticClass, str] = {
     SemanticClass.FLOOR: "FloorSurface",
     SemanticClass.CEILING: "CeilingSurface",
     SemanticClass.FURNITURE: "WallSurface",
+    SemanticClass.SHADOW: "WallSurface",
     SemanticClass.OTHER: "WallSurface",
 }
 # Classes that CityJSON models as openings: they name the surface that they open as parent.
 OPENINGS: frozenset[SemanticClass] = frozenset(
     {SemanticClass.WINDOW, SemanticClass.DOOR, SemanticClass.SHOP}
 )
+# What is there to be looked at alone: it has no body and no area, and nobody points at it. Formats
+# that measure or classify leave it out, and those that know no transparency.
+DRAWN_ONLY: frozenset[SemanticClass] = frozenset({SemanticClass.SHADOW})
+
+
+def is_drawn_only(codes: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Whether a class, by its code, is there to be looked at alone; any shape."""
+    return np.isin(codes, [one.code for one in DRAWN_ONLY])

@@ -25,8 +25,16 @@ export const CLASS_LOOKS: Readonly<Record<SemanticClass, ClassLook>> = {
   floor: { label: "Floor", plural: "Floors", colour: "#b08d67" },
   ceiling: { label: "Ceiling", plural: "Ceilings", colour: "#d9d4c7" },
   furniture: { label: "Furniture", plural: "Furniture", colour: "#7f9a86" },
+  shadow: { label: "Shadow", plural: "Shadows", colour: "#5d5a63" },
   other: { label: "Other surface", plural: "Other surfaces", colour: "#a39aa8" },
 };
+
+/** What is there to be looked at alone: nobody points at it, measures it or bumps into it. */
+const DRAWN_ONLY: ReadonlySet<SemanticClass> = new Set(["shadow"]);
+
+export function isDrawnOnly(kind: SemanticClass): boolean {
+  return DRAWN_ONLY.has(kind);
+}
 
 export interface ProvenanceLook {
   readonly label: string;

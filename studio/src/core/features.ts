@@ -1,5 +1,6 @@
 /** The feature table of a part: what each surface of its mesh is. */
 import {
+  isDrawnOnly,
   isProvenance,
   isSemanticClass,
   type Provenance,
@@ -141,6 +142,15 @@ export function rowNamed(table: FeatureTable, named: string, ownerOf: (row: numb
 
 export function childrenOf(table: FeatureTable, row: number): readonly Feature[] {
   return table.rows.filter((feature) => feature.parent === row);
+}
+
+/** Whether faces of these features are there to be looked at alone, all of them. */
+export function areDrawnOnly(rows: Iterable<number>, table: { readonly rows: readonly Feature[] }): boolean {
+  for (const row of new Set(rows)) {
+    const kind = table.rows[row]?.class;
+    if (kind === undefined || !isDrawnOnly(kind)) return false;
+  }
+  return true;
 }
 
 /**

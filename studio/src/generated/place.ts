@@ -16,6 +16,7 @@ export type SemanticClass =
   | "floor"
   | "ceiling"
   | "furniture"
+  | "shadow"
   | "other";
 /**
  * Where a surface comes from.

@@ -1,7 +1,7 @@
 /** From the place to parts that can be drawn. */
 import { type AnimationClip, Group, InstancedMesh, Light, Mesh, Texture } from "three";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { readFeatureTable, type FeatureTable } from "../core/features.ts";
+import { areDrawnOnly, readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
 import { Fault } from "../core/fault.ts";
 import type { Part } from "../core/place.ts";
@@ -51,6 +51,7 @@ export async function readPart(part: Part, bytes: ArrayBuffer, images: SharedIma
     if (node instanceof InstancedMesh) instanced.push(instancedFeatures(node as InstancedMesh, table, part.model));
     else if (node instanceof Mesh) meshes.push(featureMesh(node as Mesh, table, part.model));
   });
+  for (const { mesh, rowOfFace } of meshes) if (areDrawnOnly(rowOfFace, table)) layOver(mesh);
   if (part.isBackdrop) for (const { mesh } of meshes) setApart(mesh);
   const drawn = [...meshes, ...instanced].map(({ mesh }) => mesh);
   if (drawn.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
@@ -107,6 +108,17 @@ function setApart(mesh: Mesh): void {
   mesh.castShadow = false;
   mesh.receiveShadow = false;
   mesh.renderOrder = -1;
+}
+
+/** Sheets that lie closely over a floor: from afar their depth is the floor's. */
+function layOver(mesh: Mesh): void {
+  mesh.castShadow = false;
+  for (const material of [mesh.material].flat()) {
+    material.depthWrite = false;
+    material.polygonOffset = true;
+    material.polygonOffsetFactor = -1;
+    material.polygonOffsetUnits = -4;
+  }
 }
 
 function sharpenTextures(mesh: Mesh): void {

@@ -1,6 +1,6 @@
 /** The room for a part of the place: empty until its model has come. */
 import { type AnimationClip, Group } from "three";
-import type { Feature } from "../core/features.ts";
+import { areDrawnOnly, type Feature } from "../core/features.ts";
 import type { Part } from "../core/place.ts";
 import type { FeatureMesh } from "./feature-mesh.ts";
 import type { InstancedFeatures } from "./instanced-mesh.ts";
@@ -41,8 +41,9 @@ export class PartSlot implements LoadedPart {
   }
 }
 
-/** What of a part does not move. */
-export function stillOf({ meshes, instanced, movers }: LoadedPart): Soupable {
+/** What of a part does not move, and is more than drawn: one bumps into it, and points at it. */
+export function stillOf({ meshes, instanced, movers, table }: LoadedPart): Soupable {
   const moving = new Set(movers.flatMap((mover) => mover.meshes));
-  return { meshes: meshes.filter((mesh) => !moving.has(mesh)), instanced };
+  const stays = (mesh: FeatureMesh): boolean => !moving.has(mesh) && !areDrawnOnly(mesh.rowOfFace, table);
+  return { meshes: meshes.filter(stays), instanced };
 }

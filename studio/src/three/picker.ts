@@ -1,5 +1,6 @@
 /** What lies under a point of the canvas, and where a point of the world is on it. */
 import { type PerspectiveCamera, Raycaster, Vector2, Vector3 } from "three";
+import { isDrawnOnly } from "../core/classes.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { add, scale, type Vec3 } from "../core/vector.ts";
@@ -76,6 +77,6 @@ export class Picker {
     const kind = town === null ? (part?.table.rows[ref.row]?.class ?? null) : town.classOf(ref);
     const layer = town === null ? (part?.part.layer ?? null) : "model";
     const { hidden, off } = this.#state();
-    return kind !== null && !hidden.has(kind) && (layer === null || !off.has(layer));
+    return kind !== null && !isDrawnOnly(kind) && !hidden.has(kind) && (layer === null || !off.has(layer));
   }
 }

@@ -1,7 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { childrenOf, countCarried, countClasses, countProvenances, readFeatureTable } from "../../src/core/features.ts";
+import { Mesh } from "three";
+import { areDrawnOnly, childrenOf, countCarried, countClasses, countProvenances, readFeatureTable } from "../../src/core/features.ts";
 import { Fault } from "../../src/core/fault.ts";
 import { scoreText } from "../../src/core/wording.ts";
+import type { FeatureMesh } from "../../src/three/feature-mesh.ts";
+import type { LoadedPart } from "../../src/three/load.ts";
+import { stillOf } from "../../src/three/part-slot.ts";
 
 function columns(): Record<string, unknown[]> {
   return {
@@ -95,5 +99,22 @@ describe("the feature table", () => {
 
   it.each([null, undefined, 3, "text", {}, []])("refuses %j", (value) => {
     expect(() => readFeatureTable(value, "model.glb")).toThrow(Fault);
+  });
+});
+
+describe("what is drawn only", () => {
+  const { rows } = readFeatureTable({ ...columns(), class: ["wall", "shadow", "shadow", "roof"] }, "model.glb");
+
+  it("is a mesh of shadows alone", () => {
+    expect(areDrawnOnly([1, 2, 1], { rows })).toBe(true);
+    expect(areDrawnOnly([1, 0], { rows })).toBe(false);
+    expect(areDrawnOnly([9], { rows })).toBe(false);
+  });
+
+  it("is nothing that one bumps into or points at", () => {
+    const mesh = (row: number): FeatureMesh => ({ mesh: new Mesh(), faces: new Uint32Array(3), rowOfFace: new Uint32Array([row]) });
+    const [wall, shade] = [mesh(0), mesh(1)];
+    const part = { table: { rows }, meshes: [wall, shade], instanced: [], movers: [] } as unknown as LoadedPart;
+    expect(stillOf(part).meshes).toEqual([wall]);
   });
 });

@@ -11,7 +11,7 @@ from shapely.geometry import Polygon, box
 
 from veduta.formats.gltf import read_glb, write_glb
 from veduta.place.part import Part
-from veduta.place.semantics import Provenance
+from veduta.place.semantics import DRAWN_ONLY, Provenance
 from veduta.plan.document import Furniture
 from veduta.plan.house.build import build_house
 from veduta.plan.house.contact_shadows import LAYERS_M, LOOK
@@ -67,6 +67,8 @@ def test_it_is_invented_and_says_what_it_is() -> None:
     (feature,) = {one for _, _, one in _sheets(part)}
     assert part.features.name[feature] == "ground floor living contact shadows"
     assert part.features.provenance_code[feature] == Provenance.INVENTED.code
+    assert part.features.semantic(feature) in DRAWN_ONLY
+    assert part.feature_area_m2[feature] == 0.0
 
 
 def test_it_stays_in_its_room() -> None:
@@ -92,9 +94,19 @@ def test_what_stands_on_a_rug_casts_its_shadow_on_it_and_the_rug_none() -> None:
     assert all(height > FINISH_M + 0.012 for height in heights)
 
 
-def test_what_stands_higher_has_none() -> None:
-    lamp = _thing("wardrobe-white", (2.0, 2.5), (0.3, 0.3, 0.3), above_m=0.8)
-    assert _sheets(_part(lamp)) == []
+def test_what_hangs_high_or_stands_on_a_thing_has_none() -> None:
+    shelf = _thing("wardrobe-white", (2.0, 2.5), (0.3, 0.3, 0.3), above_m=0.9)
+    box_on_it = _thing("wardrobe-white", (2.1, 2.5), (0.3, 0.3, 0.3), above_m=0.3, on=shelf.id)
+    assert _sheets(_part(shelf, box_on_it)) == []
+
+
+def test_what_hangs_low_has_a_wide_and_thin_one() -> None:
+    """From .3 m on: as far as a part of what stands there, .1 m out and .1 m in, nothing dark."""
+    sheets = _sheets(_part(_thing("wardrobe-white", (2.0, 2.5), (1.0, 0.6, 0.8), above_m=0.3)))
+    reach = sorted(max(abs(x - 2.0) for x, _ in one.exterior.coords) - 0.5 for one, _, _ in sheets)
+    assert 2 <= len(sheets) < len(LAYERS_M)
+    assert reach[0] == pytest.approx(-0.1, abs=0.02)
+    assert reach[-1] == pytest.approx(0.1, abs=0.02)
 
 
 def test_a_file_says_how_thin_it_is(tmp_path: Path) -> None:

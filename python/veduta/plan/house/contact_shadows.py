@@ -2,7 +2,8 @@
 
 A viewer's lamps and its sun leave no shade where a foot touches the floor. Layers of one dark
 colour, each a little larger and thinly seen through, lie on each other: what stands on the floor
-has all of them around its feet, what hangs over it few, and wide ones. Invented, as all furniture.
+has all of them around its feet, what hangs low over it few, and wide ones, be it a part of what
+stands or fixed to a wall. Invented, as all furniture, and drawn only (`place.semantics`).
 """
 
 from __future__ import annotations
@@ -60,12 +61,11 @@ def add_contact_shadows(space: Space, catalogue: Catalogue, sculptor: Sculptor) 
         if room is None:
             continue
         own = [one for one in space.storey.furniture or () if one.room == room.id]
-        standing = [one for one in own if one.above_m < FLAT_M < one.size_m[2]]
-        layers = _layers([_placed(one, catalogue) for one in standing], region)
+        layers = _layers([_placed(one, catalogue) for one in own if _shades(one)], region)
         if all(layer.is_empty for layer in layers):
             continue
         feature = sculptor.builder.feature(
-            SemanticClass.OTHER, Provenance.INVENTED, f"{space.name_of(room)} contact shadows",
+            SemanticClass.SHADOW, Provenance.INVENTED, f"{space.name_of(room)} contact shadows",
             shell=sculptor.builder.new_shell(),
         )  # fmt: skip
         rugs = [one for one in own if one.above_m < FLAT_M >= one.size_m[2]]
@@ -73,6 +73,11 @@ def add_contact_shadows(space: Space, catalogue: Catalogue, sculptor: Sculptor) 
             rise = FINISH_M + _RISE_M + number * _STEP_M
             for piece, height in _laid(layer, rugs):
                 _lay(piece, rise + height, space, sculptor, Surface(feature, LOOK))
+
+
+def _shades(one: Furniture) -> bool:
+    """Whether a thing shades the floor: no rug, nothing that stands on another thing."""
+    return one.on is None and one.above_m < _HIGHEST_M and one.above_m + one.size_m[2] > FLAT_M
 
 
 def _lay(
@@ -91,7 +96,8 @@ def _lay(
 def _placed(thing: Furniture, catalogue: Catalogue) -> Shade:
     entry = catalogue.entries[thing.object]
     asset = asset_of(entry, thing.size_m, catalogue, coarse=True)
-    shade = _shade(_Triangles(asset.points_m[asset.corners[asset.triangles[0]]]))
+    hung = asset.points_m + np.array([0.0, thing.above_m, 0.0])
+    shade = _shade(_Triangles(hung[asset.corners[asset.triangles[0]]]))
 
     def moved(shape: BaseGeometry) -> BaseGeometry:
         turned = rotate(shape, thing.turn_rad, origin=(0.0, 0.0), use_radians=True)
@@ -101,7 +107,7 @@ def _placed(thing: Furniture, catalogue: Catalogue) -> Shade:
 
 
 class _Triangles:
-    """(n, 3, 3) corners of an asset (y up), known by their bytes."""
+    """(n, 3, 3) corners of an asset (y up from the floor), known by their bytes."""
 
     def __init__(self, corners_m: NDArray[np.float64]) -> None:
         self.corners_m = corners_m
