@@ -20,6 +20,7 @@ from record import Value, keep_or_print
 from veduta.fauna.document.plan import load_plan
 from veduta.fauna.motion.figure import figure_of
 from veduta.fauna.read.annotated import read_annotated
+from veduta.fauna.read.between_marks import CarriedMarks, CarryLooks, carried_marks
 from veduta.fauna.read.drawn import drawn_figure
 from veduta.fauna.read.footage import Footage, read_footage, read_masks
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
@@ -49,17 +50,21 @@ def main() -> None:
     own = read_annotated(folder / "badja_dog.json", len(footage.frames), figure_of(plan).names).px
     marked = {name: at * (footage.size[0] / ANNOTATED_PX) for name, at in own.items()}
     frames = np.flatnonzero(np.any([np.isfinite(at[:, 0]) for at in marked.values()], axis=0))
+    whole = np.zeros(footage.frames.shape[:3], dtype=np.bool_)
+    whole[found.rows] = found.masks
+    half = {joint: at.copy() for joint, at in marked.items()}
+    for at in half.values():
+        at[frames[1::2]] = np.nan
+    carried = carried_marks(footage.frames, whole, half, CarryLooks())
+    every = {joint: np.ones(len(whole)) for joint in half}
     rows: list[Row] = []
-    for name, held in (
-        ("silhouettes alone", frames),
-        ("every other labelled frame given", frames[1::2]),
+    for name, pins, trust, held in (
+        ("silhouettes alone", {}, {}, frames),
+        ("every other labelled frame given, none carried", half, every, frames[1::2]),
+        ("every other labelled frame given", carried.px, carried.trust, frames[1::2]),
     ):
-        pins = {}
-        if len(held) < len(frames):
-            pins = {joint: at.copy() for joint, at in marked.items()}
-            for at in pins.values():
-                at[held] = np.nan
-        rows += kept.rows(name, partial(measured, name, footage, found, pins, marked, held))
+        given_marks = CarriedMarks(pins, trust)
+        rows += kept.rows(name, partial(measured, name, footage, found, given_marks, marked, held))
     notes = [
         f"Places within {NEAR:.0%} of the length from rump to nose; judged in labelled frames that"
         " the fit was not given. Nothing was tuned with the dog.",
@@ -68,14 +73,19 @@ def main() -> None:
 
 
 def measured(
-    name: str, footage: Footage, found: Silhouettes, pins: dict[str, Floats],
+    name: str, footage: Footage, found: Silhouettes, marks: CarriedMarks,
     marked: dict[str, Floats], held: NDArray[np.int64],
 ) -> list[Row]:  # fmt: skip
     """The rows of one fit."""
-    own = {joint: at[found.rows] for joint, at in pins.items()}
+    pins, trust = (
+        {joint: values[found.rows] for joint, values in one.items()}
+        for one in (marks.px, marks.trust)
+    )
     plan = load_plan("quadruped")
     pictures = footage.frames[found.rows]
-    seen = fit_limbed(found.masks, found.rows, plan, LimbedLooks(), lambda: None, own, pictures)
+    seen = fit_limbed(
+        found.masks, found.rows, plan, LimbedLooks(), lambda: None, pins, pictures, trust
+    )
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
     deep = seen.fitted.deep * seen.fitted.px_per_length
     shape = (found.masks.shape[1], found.masks.shape[2])
@@ -84,7 +94,10 @@ def measured(
         for at, mask in zip(joints, found.masks, strict=True)
     ]
     away = _away(seen, joints, deep, found.rows, marked, held)
+    carried = any(np.any((one > 0.0) & (one < 1.0)) for one in marks.trust.values())
+    length = _length(seen, joints, deep)
     return [
+        *([carried_row(marks, marked, held, length)] if carried else []),
         {"what": f"dog, {name}: labelled places within 8 % of the length",
          "value": float(np.mean(away < NEAR)), "bound": "0.80"},
         {"what": f"dog, {name}: median distance (of the length)", "value": float(np.median(away)),
@@ -95,15 +108,25 @@ def measured(
     ]  # fmt: skip
 
 
+def carried_row(
+    carried: CarriedMarks, marked: dict[str, Floats], held: NDArray[np.int64], length: float
+) -> Row:
+    """What is carried from frame to frame, without a fit, in all held frames. length: px."""
+    away = np.concatenate(
+        [np.linalg.norm(carried.px[name][held] - at[held], axis=1) for name, at in marked.items()]
+    )
+    there = np.concatenate([np.isfinite(at[held, 0]) for at in marked.values()])
+    near = np.nan_to_num(away[there] / length, nan=1.0) < NEAR
+    return {"what": "dog, marks carried by what the pictures show, without a figure",
+            "value": float(near.mean()), "bound": "0.80", "places": len(near)}  # fmt: skip
+
+
 def _away(
     seen: LimbedSeen, joints: Floats, deep: Floats, rows: NDArray[np.int64],
     marked: dict[str, Floats], held: NDArray[np.int64],
 ) -> Floats:  # fmt: skip
     """(n,) distances in lengths, of the joints that the figure has, in the held frames."""
-    figure = seen.fitted.figure
-    body = list(figure.limbs[0].joints)
-    way = np.linalg.norm(np.diff(joints[:, body], axis=1), axis=2).sum(axis=1)
-    length = float(np.median(way) + deep[body[0]] + deep[body[-1]])
+    figure, length = seen.fitted.figure, _length(seen, joints, deep)
     kept = np.isin(rows, held)
     away = [
         np.linalg.norm(joints[kept, figure.names.index(name)] - at[rows[kept]], axis=1) / length
@@ -112,6 +135,13 @@ def _away(
     ]
     flat = np.concatenate(away)
     return np.asarray(flat[np.isfinite(flat)])
+
+
+def _length(seen: LimbedSeen, joints: Floats, deep: Floats) -> float:
+    """From rump to nose, px."""
+    body = list(seen.fitted.figure.limbs[0].joints)
+    way = np.linalg.norm(np.diff(joints[:, body], axis=1), axis=2).sum(axis=1)
+    return float(np.median(way) + deep[body[0]] + deep[body[-1]])
 
 
 if __name__ == "__main__":

@@ -70,8 +70,9 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         seen = fit_limbed(
             found.masks, footage.number[found.rows], plan, LimbedLooks(),
             lambda: work.progress("figure", 0.5),
-            {name: places[found.rows] for name, places in pins.items()},
+            {name: places[found.rows] for name, places in pins.px.items()},
             footage.frames[found.rows],
+            {name: trust[found.rows] for name, trust in pins.trust.items()},
         )  # fmt: skip
         step.counts["segments"] = len(seen.fitted.figure.start)
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)

@@ -11,6 +11,7 @@ from veduta.fauna.document.plan import BodyPlan
 from veduta.fauna.motion.figure import Floats, figure_of
 from veduta.fauna.options import FootageOptions
 from veduta.fauna.read.annotated import read_annotated
+from veduta.fauna.read.between_marks import CarriedMarks, CarryLooks, carried_marks
 from veduta.fauna.read.footage import Footage, pictures_in
 from veduta.fauna.read.joints import MarkedJoints, read_joints, written_joints
 from veduta.fauna.read.markers import Marker, MarkerLooks, read_markers, tracked_markers
@@ -27,10 +28,12 @@ _MOST_BESIDE = 0.1
 def pins_of(
     work: Work, record: Record, footage: Footage, found: Silhouettes, plan: BodyPlan,
     options: FootageOptions,
-) -> dict[str, Floats]:  # fmt: skip
-    """(t, 2) px by joint in the frames of the footage; none where nothing is given.
+) -> CarriedMarks:  # fmt: skip
+    """px by joint in the frames of the footage, and how far each is trusted; none where nothing is
+    given.
 
-    A joint that is marked is taken from there, if it has a painted marker, too.
+    A joint that is marked is taken from there, if it has a painted marker, too. Gaps between marks
+    are bridged by what the pictures show.
     """
     names = figure_of(plan).names
     pins: dict[str, Floats] = {}
@@ -54,17 +57,31 @@ def pins_of(
             name: footage.at_canvas((places[footage.number] - corner)[:, None])[:, 0]
             for name, places in marked.px.items()
         }
-    if pins:
-        whole = {
-            name: footage.from_canvas(at[:, None])[:, 0] + np.array(footage.corner)
-            for name, at in pins.items()
-        }
-        text = written_joints(MarkedJoints(whole, ()), footage.number)
-        seen = float(np.mean([np.isfinite(at[:, 0]).mean() for at in pins.values()]))
-        work.measure("joints_marked_share", seen)
-        (work.folder / JOINTS).write_text(text, encoding="utf-8")
-        work.file(JOINTS, "joints that were marked or tracked, to correct and to give again")
-    return pins
+    if not pins:
+        return CarriedMarks({}, {})
+    work.measure("joints_marked_share", _share(pins))
+    with work.step("joints between marks") as step:
+        masks = np.zeros(footage.frames.shape[:3], dtype=np.bool_)
+        masks[found.rows] = found.masks
+        carried = carried_marks(footage.frames, masks, pins, CarryLooks())
+        step.counts["joints"] = len(pins)
+    work.measure("joints_carried_share", _share(carried.px) - _share(pins))
+    whole = {
+        name: footage.from_canvas(at[:, None])[:, 0] + np.array(footage.corner)
+        for name, at in carried.px.items()
+    }
+    text = written_joints(whole, carried.trust, footage.number)
+    (work.folder / JOINTS).write_text(text, encoding="utf-8")
+    work.file(
+        JOINTS,
+        "joints that were marked, tracked or (with a likelihood below 0.6) carried from frame to"
+        " frame, to correct and to give again",
+    )
+    return carried
+
+
+def _share(px: dict[str, Floats]) -> float:
+    return float(np.mean([np.isfinite(at[:, 0]).mean() for at in px.values()]))
 
 
 def in_frames(marker: Marker, footage: Footage, path: Path) -> Marker:

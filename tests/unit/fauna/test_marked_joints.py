@@ -17,7 +17,7 @@ from veduta.fauna.read.annotated import read_annotated
 from veduta.fauna.read.basis import FitLooks, spline_basis
 from veduta.fauna.read.fit import Fit
 from veduta.fauna.read.footage import Footage
-from veduta.fauna.read.joints import MarkedJoints, read_joints, written_joints
+from veduta.fauna.read.joints import read_joints, written_joints
 from veduta.fauna.read.silhouettes import Silhouettes
 from veduta.fauna.read.windows import windows_of
 from veduta.fauna.recipe import Record
@@ -102,9 +102,21 @@ def test_an_index_of_three_columns_and_one_of_several_animals_are_read(tmp_path:
 def test_joints_that_are_written_are_read_again(tmp_path: Path) -> None:
     places = np.array([[1.5, 2.25], [np.nan, np.nan], [7.0, 8.0]])
     path = tmp_path / "joints.csv"
-    path.write_text(written_joints(MarkedJoints({"nose": places}, ()), np.array([0, 2, 4])))
+    trust = np.array([1.0, 0.0, 1.0])
+    path.write_text(written_joints({"nose": places}, {"nose": trust}, np.array([0, 2, 4])))
     found = read_joints(path, 5, NAMES, ())
     np.testing.assert_array_equal(found.px["nose"][[0, 2, 4]], places)
+
+
+def test_what_was_carried_is_written_and_no_mark_when_it_is_read_again(tmp_path: Path) -> None:
+    places = np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
+    path = tmp_path / "joints.csv"
+    path.write_text(
+        written_joints({"nose": places}, {"nose": np.array([1.0, 0.99, 0.2])}, np.arange(3))
+    )
+    assert "3.00,4.00,0.53" in path.read_text()
+    found = read_joints(path, 3, NAMES, ())
+    np.testing.assert_array_equal(np.isfinite(found.px["nose"][:, 0]), [True, False, False])
 
 
 def _annotated(**changed: object) -> str:
@@ -159,7 +171,7 @@ def test_places_of_larger_pictures_are_refused_until_their_height_is_told(tmp_pa
 
         def make(work: Work) -> None:
             plan = load_plan("quadruped")
-            at.append(pins_of(work, record, footage, found, plan, options)["nose"])
+            at.append(pins_of(work, record, footage, found, plan, options).px["nose"])
 
         call = VerbCall("fauna", "0", "x", options, [])
         run_verb(call, tmp_path / f"out{height}", make, Progress(quiet=True))

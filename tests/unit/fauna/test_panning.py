@@ -113,7 +113,7 @@ def test_joints_in_the_pictures_of_a_moving_camera_go_with_them(tmp_path: Path) 
     at: list[NDArray[np.float64]] = []
 
     def make(work: Work) -> None:
-        at.append(pins_of(work, record, still, found, plan, FootageOptions())["nose"])
+        at.append(pins_of(work, record, still, found, plan, FootageOptions()).px["nose"])
 
     call = VerbCall("fauna", "0", "pan", FaunaOptions(), [])
     run_verb(call, tmp_path / "out", make, Progress(quiet=True))

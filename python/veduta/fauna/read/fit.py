@@ -49,6 +49,12 @@ class Fit:
     ) -> None:
         self.frames, self.weights = frames, windows.weights()
         self.pinned = [name for name in windows.pins if name in figure.names]
+        every = np.ones(len(windows.shares))
+        self.trust = (
+            np.stack([windows.trust.get(name, every) for name in self.pinned], axis=1)
+            if (self.pinned)
+            else np.ones((len(every), 0))
+        )
         self.pinned_joints = [figure.names.index(name) for name in self.pinned]
         self.figure, self.windows, self.basis, self.looks = figure, windows, basis, looks
         self.far = np.array([figure.limbs[n].side == "right" for n in figure.limb])
@@ -178,8 +184,9 @@ class Fit:
         marked = np.stack([self.windows.pins[name] for name in self.pinned], axis=1)
         away = joints[:, self.pinned_joints] - self.windows.from_picture(marked, px_per_length)
         away = np.where(np.isfinite(away), away, 0.0)
-        seen.loss[:] += self.looks.pin * (away**2).sum(axis=(1, 2))
-        seen.by_joint[:, self.pinned_joints] += 2.0 * self.looks.pin * away
+        pull = self.looks.pin * self.trust[..., None]
+        seen.loss[:] += (pull * away**2).sum(axis=(1, 2))
+        seen.by_joint[:, self.pinned_joints] += 2.0 * pull * away
 
     def _back_apart(self, gradient: Floats, by_apart: Floats) -> None:
         right = np.array([limb.side == "right" for limb in self.figure.limbs])[:, None]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -163,17 +163,28 @@ def _values(path: Path, rows: list[list[str]], column: int) -> Floats:
         ) from error
 
 
-def written_joints(joints: MarkedJoints, number: NDArray[np.int64]) -> str:
-    """The joints as a CSV in the same layout, a row for each frame, by its number; gaps stay."""
-    names = sorted(joints.px)
+def written_joints(
+    px: Mapping[str, Floats], trust: Mapping[str, Floats], number: NDArray[np.int64]
+) -> str:
+    """The joints as a CSV in the same layout, a row for each frame, by its number; gaps stay.
+
+    px: (t, 2), trust: (t,) by joint; what is trusted by less than 1 was not marked, and its
+    likelihood is one that is left out where the file is read again.
+    """
+    names = sorted(px)
     heads = [
-        ["scorer", *["veduta"] * (2 * len(names))],
-        ["bodyparts", *[name for name in names for _ in "xy"]],
-        ["coords", *["x", "y"] * len(names)],
+        ["scorer", *["veduta"] * (3 * len(names))],
+        ["bodyparts", *[name for name in names for _ in range(3)]],
+        ["coords", *["x", "y", "likelihood"] * len(names)],
     ]
-    places = np.concatenate([joints.px[name] for name in names], axis=1)
+    likely = {name: np.where(trust[name] < 1.0, 0.9 * _SURE * trust[name], 1.0) for name in names}
+    columns = [column for name in names for column in (*px[name].T, likely[name])]
+    gap = np.repeat([~np.isfinite(px[name][:, 0]) for name in names], 3, axis=0)
     rows = [
-        [str(int(frame)), *(f"{value:.2f}" if np.isfinite(value) else "" for value in row)]
-        for frame, row in zip(number, places, strict=True)
-    ]
+        [str(int(frame)), *(
+            "" if none[row] else f"{column[row]:.2f}"
+            for column, none in zip(columns, gap, strict=True)
+        )]
+        for row, frame in enumerate(number)
+    ]  # fmt: skip
     return "\n".join(",".join(row) for row in [*heads, *rows]) + "\n"

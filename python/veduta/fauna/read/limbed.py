@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,17 +61,18 @@ class LimbedSeen:
 def fit_limbed(
     masks: Masks, frames: NDArray[np.int64], plan: BodyPlan, looks: LimbedLooks,
     heard: Callable[[], None], pins: Mapping[str, Floats] | None = None,
-    pictures: NDArray[np.uint8] | None = None,
+    pictures: NDArray[np.uint8] | None = None, trust: Mapping[str, Floats] | None = None,
 ) -> LimbedSeen:  # fmt: skip
     """The figure of a plan in silhouettes (t, h, w) of the numbered frames.
 
-    pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere. pictures: (t, h, w, 3) of
+    pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere. trust: (t,) by joint, how
+    much each mark counts, if not 1. pictures: (t, h, w, 3) of
     the frames: they tell near legs from far ones, and how the ground goes by.
     """
     optional = {part.name for part in plan.parts if part.optional}
     number = frames.astype(np.float64)
     middle = middles_of(masks)
-    coarse = replace(windows_of(masks, looks.coarse_cells, middle), pins=pins or {})
+    coarse = windows_of(masks, looks.coarse_cells, middle).marked(pins or {}, trust or {})
     top = plan.view == "top"
     repeats = repeat_of(coarse, top=top)
     cycle, score = None, 0.0
@@ -85,7 +86,7 @@ def fit_limbed(
     start = best_start(figure, coarse, number, basis, looks.fit, looks.start, ways, heard)
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
-    fine = replace(windows_of(masks, looks.fine_cells, middle), pins=pins or {})
+    fine = windows_of(masks, looks.fine_cells, middle).marked(pins or {}, trust or {})
     if start.fit.windows.faces < 0.0:
         fine = fine.mirrored()
     if cycle is not None:

@@ -22,7 +22,8 @@ class Windows:
     """shares: (t, h, w) how much of each cell the animal covers. middle_px: (t, 2) of the windows,
     x and y down in the picture. cell_px: the side of a cell. faces: 1 where the animal looks to the
     right of the picture, -1 where the windows are mirrored so that it does. pins: (t, 2) px by
-    joint, where somebody has marked it; NaN elsewhere.
+    joint, where somebody has marked it; NaN elsewhere. trust: (t,) by joint how much each mark
+    counts, where they differ in that.
     """
 
     shares: Singles
@@ -30,6 +31,7 @@ class Windows:
     cell_px: float
     faces: float
     pins: Mapping[str, Floats] = field(default_factory=dict)
+    trust: Mapping[str, Floats] = field(default_factory=dict)
 
     def places(self, px_per_length: float) -> Singles:
         """(h * w, 2) the middles of the cells from the window's, x right, y up, in lengths."""
@@ -64,8 +66,15 @@ class Windows:
 
     def of(self, rows: NDArray[np.int64]) -> Windows:
         """Those of some frames."""
-        pins = {name: places[rows] for name, places in self.pins.items()}
-        return replace(self, shares=self.shares[rows], middle_px=self.middle_px[rows], pins=pins)
+        pins, trust = (
+            {name: values[rows] for name, values in own.items()} for own in (self.pins, self.trust)
+        )
+        shares, middle = self.shares[rows], self.middle_px[rows]
+        return replace(self, shares=shares, middle_px=middle, pins=pins, trust=trust)
+
+    def marked(self, pins: Mapping[str, Floats], trust: Mapping[str, Floats]) -> Windows:
+        """The same with marked joints."""
+        return replace(self, pins=pins, trust=trust)
 
     def mirrored(self) -> Windows:
         """The same animal looking the other way."""

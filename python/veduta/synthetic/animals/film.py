@@ -8,6 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.synthetic.animals.mottled import Coat
+
 Floats = NDArray[np.float64]
 Frames = NDArray[np.uint8]
 _SHIFT = 4
@@ -56,26 +58,32 @@ def film(
     *,
     grass: int = 0,
     shadow: Floats | None = None,
+    mottled: bool = False,
 ) -> tuple[Frames, Frames, NDArray[np.bool_]]:
     """Frames of height and width `size` with tubes over each other in their order; what is behind
     them; and the masks.
 
     shadow: (2, 3) from a pixel of the animal to where its shadow falls; None: there is none.
+    mottled: its coat has spots, which move with it.
     """
     count = len(tubes[0].joints)
     rough = random.normal(150.0, 55.0, (*size, 3)).astype(np.float32)
     ground = cv2.GaussianBlur(rough, (0, 0), 4.0) + np.array([-14.0, 8.0, -22.0], np.float32)
     coat = np.array([112.0, 84.0, 58.0]) * random.uniform(0.5, 1.1)
     blades = _blades(size, grass, random)
+    coats = [Coat.drawn(random) if mottled else None for _ in tubes]
     frames = np.empty((count, *size, 3), dtype=np.uint8)
     masks = np.zeros((count, *size), dtype=np.bool_)
     for row in range(count):
         drawn = [_drawn(tube, row, size) for tube in tubes]
         whole = np.maximum.reduce(drawn)
         picture = ground.copy() if shadow is None else ground * _shaded(whole, shadow)
-        for tube, mask in zip(tubes, drawn, strict=True):
+        for tube, mask, spots in zip(tubes, drawn, coats, strict=True):
             share = cv2.GaussianBlur(mask, (0, 0), 0.7)[..., None].astype(np.float32) / 255.0
-            picture = picture * (1.0 - share) + (coat * tube.light).astype(np.float32) * share
+            own = np.full((*size, 1), tube.light, np.float32)
+            if spots is not None:
+                own *= spots.on(tube.joints, row, size)[..., None]
+            picture = picture * (1.0 - share) + coat.astype(np.float32) * own * share
         masks[row] = whole > 127
         noisy = np.where(blades[..., None] > 0, np.float32(70.0), picture)
         noisy = noisy + random.normal(0.0, 4.0, picture.shape).astype(np.float32)

@@ -30,10 +30,12 @@ def film_quadruped(
     cycle: float = 22.0,
     odd: bool = False,
     shadow: bool = False,
+    mottled: bool = False,
 ) -> Filmed:
     """One that walks to the right through a frame of 360 x 640. odd: as no plan has it.
 
     shadow: it lies on the ground before the animal, a seventh as deep as that is high.
+    mottled: its coat has spots.
     """
     random = np.random.default_rng(seed)
     like = Proportions(
@@ -93,7 +95,9 @@ def film_quadruped(
     # Feet touch their shadow at the ground; what is above falls before it.
     lying = np.array([[1.0, 0.12, -0.12 * ground], [0.0, -1.0 / 7.0, ground * (1.0 + 1.0 / 7.0)]])
     cast = lying if shadow else None
-    pictures, behind, masks = film(tubes, (360, 640), random, grass=12, shadow=cast)
+    pictures, behind, masks = film(
+        tubes, (360, 640), random, grass=12, shadow=cast, mottled=mottled
+    )
     places = {name: px([at])[:, 0] for name, at in joints.items()}
     length = (1.0 + like.neck + like.head + 0.9 * like.deep + 0.06) * unit
     return Filmed(
