@@ -1,9 +1,8 @@
 """Photos that people who did not build this brought: `cases/facade`, each as its INDEX says.
 
-Held is what was right when this was written; what the INDEX wants beyond stands beside it: the
-lorry and the skyline are to be refused and are planes with openings, the small house has two
-windows, a loggia and two doors, and three of its five windows are none. The rule files of `mix/`
-have sizes of their own and do not fit their lots.
+Held is what is right; what the INDEX wants and does not get yet is expected to fail, strictly, so
+that a mend of it is seen here. The rule files of `mix/` have sizes of their own and do not fit
+their lots.
 """
 
 from __future__ import annotations
@@ -47,13 +46,28 @@ def read(path: Path, corners: tuple[float, ...] | None = None) -> FacadeDocument
     return documents[main_house(documents)]
 
 
+def not_yet(reason: str) -> pytest.MarkDecorator:
+    """What the INDEX wants and does not get: passing by itself is a failure of the test."""
+    missed = AssertionError, pytest.fail.Exception
+    return pytest.mark.xfail(strict=True, raises=missed, reason=reason)
+
+
+@pytest.mark.parametrize("name", ["br_truck.jpg", "lu_hkblocks.jpg"])
+@not_yet("a lorry and a skyline fall back to a plane with openings")
+def test_what_is_no_front_is_refused(cases: Path, name: str) -> None:
+    with pytest.raises(NotFoundError):
+        read(cases / name)
+
+
+@not_yet("it falls back to a plane with openings")
+def test_a_tower_behind_a_low_house_has_eight_storeys(cases: Path) -> None:
+    assert read(cases / "br_towerblock.jpg").storeys == 8
+
+
 @pytest.mark.parametrize("name", ["br_truck.jpg", "lu_hkblocks.jpg", "br_towerblock.jpg"])
 def test_what_shows_no_storeys_gets_none(cases: Path, name: str) -> None:
-    """A lorry and a skyline (to be refused), and two houses one before the other (8 storeys)."""
-    try:
-        document = read(cases / name)
-    except NotFoundError:
-        return
+    """Worse than refused, better than a house: the case above says what is wanted."""
+    document = read(cases / name)
     assert document.storeys_doubtful
     assert document.storeys == 1
     assert any("a plane with openings" in note for note in document.notes)
@@ -95,8 +109,14 @@ def test_a_small_house_is_refused_without_corners_and_has_two_storeys_with_them(
     assert (document.storeys, document.storeys_doubtful) == (2, False)
     windows = [e for e in document.elements if e.class_ == "window"]
     assert len([e for e in windows if e.floor == 1]) == 2
-    assert len(windows) <= 5
     assert any(e.class_ == "door" for e in document.elements)
+
+
+@not_yet("three of its five windows are none: it has a loggia and two doors")
+def test_a_small_house_has_two_windows_and_two_doors(cases: Path) -> None:
+    document = read(cases / "of_smallhouse.png", SMALL_HOUSE)
+    assert len([e for e in document.elements if e.class_ == "window"]) == 2
+    assert len([e for e in document.elements if e.class_ == "door"]) == 2
 
 
 def test_imported_rule_files_have_their_own_photos(cases: Path) -> None:
