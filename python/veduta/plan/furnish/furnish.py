@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from shapely.geometry import Polygon
 
 from veduta.plan.document import Fitting, Furniture, Origin, PlanDocument, Room, RoomUse, Stairs
 from veduta.plan.furnish.arrangement import Spot, Variant, alone
@@ -100,6 +101,20 @@ def furnish_room(
     """
     if is_too_large(space.floor):
         return FurnishedRoom(space.room, (), (), ("is left empty: it is too large",))
+    done, lacks = _furnished(space, choice, storey, fittings)
+    if lacks and not space.leaves.is_empty:
+        # Better a leaf that one closes behind oneself than a bedroom without a bed.
+        again, lacks_still = _furnished(replace(space, leaves=Polygon()), choice, storey, fittings)
+        if lacks_still < lacks:
+            note = "has a leaf that bars the way while it stands open: else not all had found place"
+            return replace(again, notes=(*again.notes, note))
+    return done
+
+
+def _furnished(
+    space: RoomSpace, choice: Choice, storey: str, fittings: Sequence[Fitting]
+) -> tuple[FurnishedRoom, int]:
+    """A room with what finds place in it, and how many critical things did not."""
     name = zlib.crc32(f"{storey} {space.room.id}".encode())
     seeds = [choice.seed, name]
     wishes = list(_wishes(space, choice, np.random.default_rng(seeds)))
@@ -133,7 +148,8 @@ def furnish_room(
     ]
     if left:
         notes.append(full)
-    return FurnishedRoom(space.room, tuple(best.stood), tuple(missing), tuple(notes))
+    done = FurnishedRoom(space.room, tuple(best.stood), tuple(missing), tuple(notes))
+    return done, sum(kind in critical for kind in missing)
 
 
 def _not_replaced(given_up: Sequence[str], layout: Layout) -> list[str]:

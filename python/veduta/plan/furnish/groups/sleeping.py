@@ -37,16 +37,25 @@ def sleeping(choice: Choice, space: RoomSpace) -> list[Variant]:
     found += [
         _bed(choice, "bed-single", width, (side,), needed)
         for needed in (True, False)
-        for width in widths_of(entry, 1.0, 0.0)
+        for width in widths_of(entry, 1.0, 0.4)
+        for side in (-1, 1)
+    ]
+    # Rooms as narrow as a corridor: a bed for a mattress of 70 cm, and one that is shorter, too.
+    found += [
+        _bed(choice, "bed-single", entry.widths_m[0], (side,), False, depth)
+        for depth in (None, entry.depths_m[0])
         for side in (-1, 1)
     ]
     return found
 
 
-def _bed(choice: Choice, kind: str, width: float, sides: tuple[int, ...], needed: bool) -> Variant:
+def _bed(
+    choice: Choice, kind: str, width: float, sides: tuple[int, ...], needed: bool,
+    depth: float | None = None,
+) -> Variant:  # fmt: skip
     """A bed with nightstands at its free sides, if there is space for them or they are needed."""
     entry, stand = choice.entry(kind), choice.entry("nightstand")
-    size, beside = entry.sized(width), stand.sized()
+    size, beside = entry.sized(width, depth), stand.sized()
     x = size[0] / 2.0
     pieces = [alone(entry, size)]
     zones = []
