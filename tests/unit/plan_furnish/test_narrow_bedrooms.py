@@ -1,4 +1,4 @@
-"""Bedrooms in which hardly a bed finds place: a narrow one, and one whose open leaf bars the way."""
+"""Bedrooms in which hardly a bed finds place: a narrow one, one whose open leaf bars the way."""
 
 from __future__ import annotations
 
