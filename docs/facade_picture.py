@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from pictures import save
 from PIL import Image, ImageDraw, ImageFont
 
-from veduta.facade.demo import DemoOptions, what_the_user_knows
+from veduta.facade.demo import what_the_user_knows
+from veduta.facade.demo_options import DemoOptions
 from veduta.facade.options import EyesOptions
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building, reconstruct

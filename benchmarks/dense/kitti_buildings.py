@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from PIL import Image
 from record import keep_or_print
 
-from veduta.dense import DenseOptions, run_dense
-from veduta.dense.options import DepthOptions, SurfaceOptions, ViewOptions
+from veduta.dense.command import run_dense
+from veduta.dense.options import DenseOptions, DepthOptions, SurfaceOptions, ViewOptions
 
 Floats = NDArray[np.float64]
 BUILDING, WITHIN = 50, 0.03

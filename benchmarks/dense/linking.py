@@ -21,8 +21,8 @@ from pathlib import Path
 import numpy as np
 from record import Row, keep_or_print
 
-from veduta.dense import DenseOptions, run_dense
-from veduta.dense.options import DepthOptions, SurfaceOptions, ViewOptions
+from veduta.dense.command import run_dense
+from veduta.dense.options import DenseOptions, DepthOptions, SurfaceOptions, ViewOptions
 from veduta.dense.read.linking import LinkParameters, disparities_of
 from veduta.photos.options import PhotosOptions
 from veduta.photos.pipeline import run_photos

@@ -29,8 +29,8 @@ from record import Row, keep_or_print
 from scipy.spatial import cKDTree
 from sgbm_chain import sgbm_points
 
-from veduta.dense import DenseOptions, run_dense
-from veduta.dense.options import DepthOptions, SurfaceOptions
+from veduta.dense.command import run_dense
+from veduta.dense.options import DenseOptions, DepthOptions, SurfaceOptions
 from veduta.synthetic.build import build
 from veduta.synthetic.camera import Camera, look_at
 from veduta.synthetic.layout import STYLES

@@ -28,7 +28,8 @@ from pathlib import Path
 import numpy as np
 from record import record
 
-from veduta.drive import DriveOptions, run_drive
+from veduta.drive.command import run_drive
+from veduta.drive.options import DriveOptions
 from veduta.run.progress import Progress
 from veduta.synthetic.drives import (
     DriveScans,

@@ -16,7 +16,8 @@ from record import Row, record
 
 from veduta.facade.compare import Comparison, compare
 from veduta.facade.compare_picture import comparison_png
-from veduta.facade.demo import DemoOptions, what_the_user_knows
+from veduta.facade.demo import what_the_user_knows
+from veduta.facade.demo_options import DemoOptions
 from veduta.facade.pipeline import reconstruct
 from veduta.run.errors import NotFoundError
 from veduta.run.report import StepRecord

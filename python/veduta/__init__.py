@@ -9,9 +9,10 @@ What is here is brought when it is first asked for: `import veduta` costs nothin
 
 from __future__ import annotations
 
-import importlib
 import os
 from typing import TYPE_CHECKING, Any
+
+from veduta.run.late import on_demand
 
 if TYPE_CHECKING:
     from veduta import grammar
@@ -89,13 +90,8 @@ _LATE = {
 
 
 def __getattr__(name: str) -> Any:
-    """What `_LATE` names, from the module that has it (or the module itself)."""
-    if name not in _LATE:
-        raise AttributeError(f"module 'veduta' has no attribute {name!r}")
-    module = importlib.import_module(f"veduta.{_LATE[name] or name}")
-    found = getattr(module, name) if _LATE[name] else module
-    globals()[name] = found
-    return found
+    """What `_LATE` names."""
+    return on_demand(__name__, name, _LATE)
 
 
 def __dir__() -> list[str]:

@@ -9,10 +9,10 @@ import pytest
 import trimesh
 
 from veduta.cameras import read_cameras
-from veduta.carve import SilhouetteOptions
 from veduta.carve.build.bounds import find_bounds
 from veduta.carve.build.hull import carve_hull, root_of
 from veduta.carve.build.measures import overlaps
+from veduta.carve.options import SilhouetteOptions
 from veduta.carve.read.turntable import Focal, find_turns
 from veduta.carve.read.views import read_views
 

@@ -9,13 +9,15 @@ def run(arguments: list[str]) -> int:
     """Parse the arguments, do the work, say what was found and where it is."""
     if any(word.split("=")[0] == "--print-board" for word in arguments):
         return _print_board(arguments)
-    from veduta.carve import run_carve
     from veduta.cli.arguments import parse
     from veduta.cli.carve_call import CarveCall
     from veduta.cli.told import tell_result
     from veduta.run.progress import Progress
 
     call = parse(CarveCall, "veduta carve", arguments)
+
+    from veduta.carve.command import run_carve
+
     progress = Progress(quiet=call.quiet)
     result = run_carve(call.record, call.out, call.options(), progress, force=call.force)
     return tell_result(result, quiet=call.quiet)

@@ -21,7 +21,6 @@ def run(arguments: list[str]) -> int:
     """Parse the arguments, make and rebuild the street, print both beside each other."""
     from veduta.cli.arguments import parse
     from veduta.cli.demo_call import DemoCall
-    from veduta.facade.demo import run_demo
     from veduta.run.errors import InputError
     from veduta.run.progress import Progress
 
@@ -30,6 +29,8 @@ def run(arguments: list[str]) -> int:
         raise InputError("--walk and --animal", "are two demos", "Make them one after the other.")
     if call.walk:
         return _walk(call)
+    from veduta.facade.demo import run_demo
+
     result = run_demo(
         call.out, call.demo, call.street, Progress(quiet=call.quiet), force=call.force
     )

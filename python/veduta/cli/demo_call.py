@@ -9,7 +9,7 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Out, Quiet
-from veduta.facade.demo import DemoOptions
+from veduta.facade.demo_options import DemoOptions
 from veduta.synthetic.options import SyntheticOptions
 
 Force = Annotated[

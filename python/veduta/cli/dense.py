@@ -10,10 +10,12 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.dense_call import DenseCall
     from veduta.cli.told import tell_result
-    from veduta.dense import run_dense
     from veduta.run.progress import Progress
 
     call = parse(DenseCall, "veduta dense", arguments)
+
+    from veduta.dense.command import run_dense
+
     progress = Progress(quiet=call.quiet)
     result = run_dense(
         call.cameras, call.out, call.options(), progress, images=call.images, force=call.force

@@ -14,10 +14,12 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.drive_call import DriveCall
     from veduta.cli.told import tell_result
-    from veduta.drive import run_drive
     from veduta.run.progress import Progress
 
     call = parse(DriveCall, "veduta drive", arguments)
+
+    from veduta.drive.command import run_drive
+
     progress = Progress(quiet=call.quiet)
     result = run_drive(
         call.log, call.out, call.options(), progress, document=call.document, force=call.force

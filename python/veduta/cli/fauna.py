@@ -10,10 +10,13 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.fauna_call import FaunaCall
     from veduta.cli.told import tell_result
-    from veduta.fauna import Record, run_fauna
     from veduta.run.progress import Progress
 
     call = parse(FaunaCall, "veduta fauna", arguments)
+
+    from veduta.fauna.command import run_fauna
+    from veduta.fauna.recipe import Record
+
     record = Record(
         call.footage, call.masks, call.background, call.place, call.path, call.plan, call.joints,
         call.markers, call.gaits, call.second_view,

@@ -68,15 +68,17 @@ def run(arguments: list[str]) -> int:
 def _check(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import CheckCall
-    from veduta.grammar.given import read_attributes
-    from veduta.grammar.lot_names import read_names
-    from veduta.grammar.one_lot import find_lot
     from veduta.grammar.options import GrammarOptions, NameOptions
-    from veduta.grammar.rules import check_rules, find_rules, read_rules, with_start
-    from veduta.grammar.trial import tried
     from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
+
+    from veduta.grammar.given import read_attributes
+    from veduta.grammar.lot_names import read_names
+    from veduta.grammar.one_lot import find_lot
+    from veduta.grammar.rules import check_rules, find_rules, read_rules, with_start
+    from veduta.grammar.trial import tried
+
     options = GrammarOptions(
         derive=call.derive,
         limits=call.limits,
@@ -128,15 +130,17 @@ def _format(arguments: list[str]) -> int:
 def _derive(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import DeriveCall
-    from veduta.grammar.given import read_attributes
-    from veduta.grammar.lot_names import read_names
     from veduta.grammar.options import GrammarOptions, NameOptions
-    from veduta.grammar.pipeline import run_derive
     from veduta.run.pool import require_jobs
     from veduta.run.progress import Progress
 
     call = parse(DeriveCall, "veduta grammar derive", arguments)
     require_jobs(call.jobs)
+
+    from veduta.grammar.given import read_attributes
+    from veduta.grammar.lot_names import read_names
+    from veduta.grammar.pipeline import run_derive
+
     options = GrammarOptions(
         derive=call.derive,
         limits=call.limits,

@@ -17,15 +17,17 @@ def sample(arguments: list[str]) -> int:
     """Random derivations on one lot, in a picture."""
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import SampleCall
-    from veduta.grammar.derivation import parse as parse_rules
-    from veduta.grammar.given import check_options, read_attributes
-    from veduta.grammar.one_lot import find_lot
     from veduta.grammar.options import GrammarOptions
-    from veduta.grammar.sampling import MAX_SAMPLES, draw_samples, picture_cells, sheet_of
-    from veduta.grammar.sheet import encoded
     from veduta.run.progress import Progress
 
     call = parse(SampleCall, "veduta grammar sample", arguments)
+
+    from veduta.grammar.derivation import parse as parse_rules
+    from veduta.grammar.given import check_options, read_attributes
+    from veduta.grammar.one_lot import find_lot
+    from veduta.grammar.sampling import MAX_SAMPLES, draw_samples, picture_cells, sheet_of
+    from veduta.grammar.sheet import encoded
+
     _require_suffix("-o", call.out, PICTURES)
     if not 1 <= call.count <= MAX_SAMPLES:
         raise InputError(
@@ -53,16 +55,18 @@ def tree(arguments: list[str]) -> int:
     """The derivation on one lot, as text or as a drawing."""
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import TreeCall
+    from veduta.grammar.options import GrammarOptions
+
+    call = parse(TreeCall, "veduta grammar tree", arguments)
+
     from veduta.grammar.derivation import parse as parse_rules
     from veduta.grammar.edits import EditFault, parse_path, read_edits
     from veduta.grammar.given import check_options, read_attributes
     from veduta.grammar.one_lot import derive_lot, find_lot
-    from veduta.grammar.options import GrammarOptions
     from veduta.grammar.tree_rows import tree_rows
     from veduta.grammar.tree_svg import tree_svg
     from veduta.grammar.tree_text import heading, tree_text
 
-    call = parse(TreeCall, "veduta grammar tree", arguments)
     if call.out is not None:
         _require_suffix("-o", call.out, DRAWINGS)
     if not 0 <= call.depth <= MAX_DEPTH:

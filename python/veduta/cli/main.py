@@ -1,6 +1,7 @@
 """`veduta VERB ...`: finds the verb, runs it, and tells errors the way people read them.
 
 Nothing heavy is imported here, nor at the top of a verb's module: `veduta --help` answers at once.
+A verb brings what does its work after it has read its arguments: help and misuse do not wait.
 A verb's module has `SUMMARY` (one line) and `run(arguments) -> exit code`.
 """
 

@@ -19,13 +19,15 @@ def run(arguments: list[str]) -> int:
     """Parse the arguments, do the work, say what was found and where it is."""
     from veduta.cli.arguments import parse
     from veduta.cli.photos_call import PhotosCall
-    from veduta.photos.pipeline import run_photos
     from veduta.run.pool import require_jobs
     from veduta.run.progress import Progress
 
     _require_one_folder(arguments)
     call = parse(PhotosCall, "veduta photos", arguments)
     require_jobs(call.jobs)
+
+    from veduta.photos.pipeline import run_photos
+
     progress = Progress(quiet=call.quiet)
     result = run_photos(
         call.photos,

@@ -18,11 +18,13 @@ def run(arguments: list[str]) -> int:
     """Parse the arguments, do the work, say what was found and where it is."""
     from veduta.cli.arguments import parse
     from veduta.cli.plan_call import PlanCall
-    from veduta.plan.photos.given import room_photos
-    from veduta.plan.pipeline import run_plan
     from veduta.run.progress import Progress
 
     call = parse(PlanCall, "veduta plan", arguments)
+
+    from veduta.plan.photos.given import room_photos
+    from veduta.plan.pipeline import run_plan
+
     photos = room_photos(call.photos)
     progress = Progress(quiet=call.quiet)
     result = run_plan(

@@ -12,11 +12,13 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.walk_call import WalkCall
     from veduta.run.errors import InputError
     from veduta.run.progress import Progress
-    from veduta.walk.command import Sources, run_walk
     from veduta.walk.options import WalkOptions
-    from veduta.walk.rebuild import run_rebuild
 
     call = parse(WalkCall, "veduta walk", arguments)
+
+    from veduta.walk.command import Sources, run_walk
+    from veduta.walk.rebuild import run_rebuild
+
     sources = Sources(call.calibration, call.calibrate, call.cameras)
     if call.folder.suffix == ".json":
         if call.options() != WalkOptions() or sources != Sources():

@@ -3,8 +3,3 @@
 Frueh, Jain and Zakhor 2005, Data Processing Algorithms for Generating Textured 3D Building Facade
 Meshes from Laser Scans and Camera Images.
 """
-
-from veduta.drive.command import run_drive
-from veduta.drive.options import DriveOptions
-
-__all__ = ["DriveOptions", "run_drive"]

@@ -12,7 +12,6 @@ import json
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -20,6 +19,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from veduta.facade.batch import CallResult, run_call
 from veduta.facade.compare import Comparison, compare
 from veduta.facade.compare_picture import comparison_png, truth_png
+from veduta.facade.demo_options import DemoOptions
 from veduta.facade.demo_street import LOTS, LOTS_FILE, derive_street, joined_place, street_lots
 from veduta.facade.document import FacadeDocument
 from veduta.facade.load import DOCUMENT, load_document
@@ -29,7 +29,6 @@ from veduta.formats.place_json import write_place
 from veduta.geometry import homography
 from veduta.grammar.pipeline import DeriveResult
 from veduta.run.digests import file_digest, result_key
-from veduta.run.options import Options
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.progress import Progress
 from veduta.run.record import CALL, load_record
@@ -41,22 +40,6 @@ VERSION = "2"
 TRUTH, PLACE, COMPARISON = "truth", "place", "comparison"
 PHOTO = "street.jpg"
 RECORD = "comparison.json"
-
-
-class DemoOptions(Options):
-    """Which street is made, and what its photographer is taken to know about it."""
-
-    seed: Annotated[int, Field(ge=0, lt=2**31)] = Field(
-        default=2, description="another seed is another house, street and light"
-    )
-    corners: bool = Field(
-        default=False,
-        description="name the wall's corners in the photo, to a pixel, with `--corners`",
-    )
-    unmeasured: bool = Field(
-        default=False,
-        description="leave out `--height-m` (the wall's height to 0.1 m): a storey is then 3.0 m",
-    )
 
 
 class DemoRecord(BaseModel):

@@ -5,8 +5,9 @@ What is here is brought when it is first asked for: who fills holes waits for no
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING, Any
+
+from veduta.run.late import on_demand
 
 if TYPE_CHECKING:
     from veduta.surfaces.adjacency import neighbours
@@ -80,9 +81,5 @@ _LATE = {
 
 
 def __getattr__(name: str) -> Any:
-    """What `_LATE` names, from the module that has it."""
-    if name not in _LATE:
-        raise AttributeError(f"module 'veduta.surfaces' has no attribute {name!r}")
-    found = getattr(importlib.import_module(f"veduta.surfaces.{_LATE[name]}"), name)
-    globals()[name] = found
-    return found
+    """What `_LATE` names."""
+    return on_demand(__name__, name, _LATE)

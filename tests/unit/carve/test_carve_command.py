@@ -11,7 +11,8 @@ import trimesh
 from ring_of_a_ball import RADIUS, disc, write_ring
 
 from veduta.cameras import ScaleOptions
-from veduta.carve import CarveOptions, ColourOptions, SilhouetteOptions, VolumeOptions, run_carve
+from veduta.carve.command import run_carve
+from veduta.carve.options import CarveOptions, ColourOptions, SilhouetteOptions, VolumeOptions
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 from veduta.run.progress import Progress

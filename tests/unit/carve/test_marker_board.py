@@ -10,8 +10,14 @@ import pytest
 from object_on_a_board import SIZE, small_body, write_photos
 
 from veduta.cameras import Board, cameras_of_board
-from veduta.carve import CarveOptions, ColourOptions, VolumeOptions, run_carve
-from veduta.carve.options import PoseOptions, TextureOptions
+from veduta.carve.command import run_carve
+from veduta.carve.options import (
+    CarveOptions,
+    ColourOptions,
+    PoseOptions,
+    TextureOptions,
+    VolumeOptions,
+)
 from veduta.carve.read.unposed import bare_cameras
 from veduta.cli.main import main
 from veduta.run.errors import InputError

@@ -11,8 +11,14 @@ import pytest
 import trimesh
 from turned_object import body, silhouettes
 
-from veduta.carve import CarveOptions, ColourOptions, VolumeOptions, run_carve
-from veduta.carve.options import PoseOptions, TextureOptions
+from veduta.carve.command import run_carve
+from veduta.carve.options import (
+    CarveOptions,
+    ColourOptions,
+    PoseOptions,
+    TextureOptions,
+    VolumeOptions,
+)
 from veduta.carve.read.turning import Table, misses, outlines_of
 from veduta.carve.read.turntable import Focal, TurntableRule, find_turns, seem_uneven
 from veduta.place.place import Place

@@ -210,3 +210,25 @@ def test_sums_of_a_library_that_come_out_right_are_no_warnings(tmp_path: Path) -
         assert told == []
         warnings.warn("divide by zero encountered in scalar divide", RuntimeWarning, stacklevel=1)
         assert len(told) == 1
+
+
+HELPS = """
+import contextlib, io, sys
+from veduta.cli.main import VERBS, main
+from veduta.cli.grammar import ACTIONS
+calls = [[verb] for verb in VERBS] + [["grammar", action] for action in ACTIONS]
+for call in calls:
+    with contextlib.redirect_stdout(io.StringIO()) as said, contextlib.suppress(SystemExit):
+        main([*call, "--help"])
+    assert "usage" in said.getvalue().lower(), call
+print(*sorted(sys.modules))
+"""
+
+
+def test_help_waits_for_nothing_that_does_the_work() -> None:
+    """Of any verb: what works is brought after the arguments were read."""
+    done = subprocess.run([sys.executable, "-c", HELPS], capture_output=True, text=True, check=True)
+    brought = set(done.stdout.split())
+    works = {"scipy", "pycolmap", "rasterio", "onnxruntime", "shapely", "pyproj", "laspy"}
+    assert brought & works == set()
+    assert not {f"veduta.{verb}.pipeline" for verb in cli.VERBS} & brought

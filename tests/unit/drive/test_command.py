@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from veduta.drive import DriveOptions, run_drive, stages
+from veduta.drive import stages
+from veduta.drive.command import run_drive
 from veduta.drive.document.model import DriveDocument
-from veduta.drive.options import TextureOptions
+from veduta.drive.options import DriveOptions, TextureOptions
 from veduta.formats.glb_mesh import read_glb_mesh
 from veduta.place.place import Place
 from veduta.run.errors import InputError

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from veduta.drive import DriveOptions, run_drive
 from veduta.drive.build.path_report import corrections_table, path_picture
+from veduta.drive.command import run_drive
 from veduta.drive.document.model import Correction, DriveSegment
-from veduta.drive.options import MeshOptions
+from veduta.drive.options import DriveOptions, MeshOptions
 from veduta.drive.read.surface_picture import draw_surface
 from veduta.drive.record import Overview
 from veduta.formats.glb_mesh import read_glb_mesh

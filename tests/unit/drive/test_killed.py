@@ -9,7 +9,8 @@ import sys
 import time
 from pathlib import Path
 
-from veduta.drive import DriveOptions, run_drive
+from veduta.drive.command import run_drive
+from veduta.drive.options import DriveOptions
 from veduta.run.progress import Progress
 from veduta.synthetic.drives import (
     StreetOptions,
