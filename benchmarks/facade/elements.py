@@ -39,9 +39,9 @@ from numpy.typing import NDArray
 from record import keep_or_print
 from style_rows import Row, rows_of
 
+from veduta.facade.casements import casements
 from veduta.facade.document import CLASSES
 from veduta.facade.elements import (
-    casements,
     find_balconies,
     find_boosted,
     find_cornices,

@@ -110,6 +110,24 @@ class Moulding(_Record):
     provenance: Provenance = "inferred"
 
 
+ShutterKind = Literal["open", "closed"]
+
+
+class Shutter(_Record):
+    """What closes a window: an open leaf on the wall beside it, or what covers (a part of) it.
+
+    `x_px, y_px` is its upper left corner.
+    """
+
+    kind: ShutterKind
+    x_px: float
+    y_px: float
+    width_px: float = Field(gt=0.0)
+    height_px: float = Field(gt=0.0)
+    score: float = Field(ge=0.0, le=1.0)
+    provenance: Provenance = "measured"
+
+
 class Element(_Record):
     """A rectangle of one class. `x_px, y_px` is its upper left, `x_m, y_m` its lower left."""
 
@@ -215,6 +233,9 @@ class FacadeDocument(_Record):
     )
     mouldings: list[Moulding] = Field(
         default=[], description="cornices and courses along the front, from above"
+    )
+    shutters: list[Shutter] = Field(
+        default=[], description="shutters and blinds of the windows, open or closed"
     )
     storeys: int = Field(description="the ground floor and the full floors below the eaves")
     storeys_doubtful: bool = Field(

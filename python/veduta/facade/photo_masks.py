@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.facade.document import Element, FacadeDocument
+from veduta.facade.document import Element, FacadeDocument, Moulding, Shutter
 from veduta.imaging.padding import inside_photo
 
 Mask = NDArray[np.bool_]
@@ -63,6 +63,15 @@ def pixels_of(element: Element, box: PixelBox, spread_px: float = 0.0) -> tuple[
     y0 = min(max(round(element.y_px - spread_px) - box.y0, 0), height)
     y1 = min(max(round(element.y_px + element.height_px + spread_px) - box.y0, y0), height)
     return slice(y0, y1), slice(x0, x1)
+
+
+def strip_mask(strip: Moulding | Shutter, box: PixelBox) -> Mask:
+    """Where a moulding or a shutter lies in the crop."""
+    mask = np.zeros((box.size[1], box.size[0]), dtype=np.bool_)
+    x, y = strip.x_px - box.x0, strip.y_px - box.y0
+    rows = slice(max(0, round(y)), max(0, round(y + strip.height_px)))
+    mask[rows, max(0, round(x)) : max(0, round(x + strip.width_px))] = True
+    return mask
 
 
 def seen_mask(document: FacadeDocument, box: PixelBox, photo: NDArray[np.uint8]) -> Mask:

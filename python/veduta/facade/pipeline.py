@@ -29,6 +29,7 @@ from veduta.facade.quantities import QUANTITIES, quantities_csv
 from veduta.facade.rectify import Rectified, rectify
 from veduta.facade.rule_outputs import write_rule_files
 from veduta.facade.seen_mouldings import seen_mouldings
+from veduta.facade.seen_shutters import seen_shutters
 from veduta.facade.style_told import StyleTold
 from veduta.facade.wall import Wall
 from veduta.formats.cityjson import write_cityjson
@@ -39,7 +40,7 @@ from veduta.place.place import ModelFile, Place
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
-VERSION = "35"
+VERSION = "36"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 JPEG_QUALITY = 95
 
@@ -98,7 +99,7 @@ def reconstruct(
     documents, analysis, others = read_houses(rectified, source, options, progress, seen)
     steps.extend(analysis)
     said = (*photo.notes, *rectified.notes)
-    documents = [_with_mouldings(_with_notes(d, said), rectified, seen) for d in documents]
+    documents = [_with_details(_with_notes(d, said), rectified, seen) for d in documents]
     place = main_house(documents)
     document = documents[place]
     document = _on_wall(_sized(document, options.model), options.wall)
@@ -165,15 +166,16 @@ def write_building(
         step.counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*"))
 
 
-def _with_mouldings(
+def _with_details(
     document: FacadeDocument, rectified: Rectified, seen: Seen | None
 ) -> FacadeDocument:
-    """The document with the cornices and courses that the eyes see."""
+    """The document with the cornices, courses and shutters that the eyes see."""
     if seen is None:
         return document
     scale = document.scale.metres_per_px
     found = seen_mouldings(seen, rectified.pixels, document.facade, scale)
-    return document.model_copy(update={"mouldings": found})
+    shutters = seen_shutters(seen, document)
+    return document.model_copy(update={"mouldings": found, "shutters": shutters})
 
 
 def _source(photo: Photo) -> Source:

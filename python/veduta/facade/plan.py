@@ -21,6 +21,7 @@ from veduta.facade.mouldings import PlannedMoulding, plan_mouldings
 from veduta.facade.planned_gable import PlannedGable, plan_gable
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.roof import Mansard, plan_mansard
+from veduta.facade.shutters import PlannedShutter, plan_shutters
 
 # Recesses may take this share of the building's depth.
 DEEPEST_SHARE = 0.4
@@ -61,6 +62,7 @@ class Plan:
     dormers: tuple[Dormer, ...]
     chimneys: tuple[Chimney, ...]
     mouldings: tuple[PlannedMoulding, ...]
+    shutters: tuple[PlannedShutter, ...]
     library: bool
     notes: tuple[str, ...]
     depths: MeasuredDepths | None = None
@@ -102,6 +104,7 @@ def plan_building(document: FacadeDocument) -> Plan:
         dormers=dormers,
         chimneys=chimneys,
         mouldings=plan_mouldings(document, width, ledges),
+        shutters=plan_shutters(document, wall, openings),
         library=document.model.detail == "library",
         notes=tuple(notes),
         depths=document.depths,

@@ -32,6 +32,7 @@ from veduta.facade.rule_head import (
     rule_head,
 )
 from veduta.facade.shape import Cut, cuts_of
+from veduta.facade.shutters import PlannedShutter
 from veduta.facade.textures import FacadeTextures
 from veduta.place.semantics import Provenance
 
@@ -108,11 +109,15 @@ class _Writer:
         ledges = "\n".join(self._ledges())
         walls = "texture(wallPhoto) projectUV(0) Floors"
         mouldings = "\n".join(map(self._moulding, self.plan.mouldings))
-        apart = {"Balconies": calls, "Ledges": ledges, "Mouldings": mouldings}
+        shutters = "\n".join(map(self._shutter, self.plan.shutters))
+        apart = {
+            "Balconies": calls, "Ledges": ledges, "Mouldings": mouldings, "Shutters": shutters
+        }  # fmt: skip
         before = "".join(f" {name}" for name, text in apart.items() if text)
         front = _FRONT.format(floors=floors, inside=f"[ {walls} ]{before}" if before else walls)
         rules += [f"Ledges -->\n{ledges}\n"] if ledges else []
         rules += [f"Mouldings -->\n{mouldings}\n"] if mouldings else []
+        rules += [f"Shutters -->\n{shutters}\n"] if shutters else []
         return [front, f"Balconies -->\n{calls}\n" if calls else "", *rules]
 
     def slope(self, said: Provenance) -> str:
@@ -239,6 +244,17 @@ class _Writer:
         kind = f'"{name}", "{told.provenance}", "{told.kind}", "{stone}"'
         return f"[ Cornice({kind}, {x}, {self._height(place.z0)}, {w}, {h}) ]"
 
+    def _shutter(self, planned: PlannedShutter) -> str:
+        """The call of a shutter: on the wall, or before the frame of its window."""
+        self.parts |= {"library_shutter"}
+        place, told, name = planned.place, planned.shutter, f"shutter {planned.number + 1}"
+        self.known[name] = Known((place.width, place.height))
+        x, w, h = map(metres, (place.x0, place.width, place.height))
+        paint = hex_colour(self.textures.colours.shutters[planned.number])
+        out = "0" if told.kind == "open" else "-setback"
+        kind = f'"{name}", "{told.provenance}", "{paint}"'
+        return f"[ Shutter({kind}, {x}, {self._height(place.z0)}, {w}, {h}, {out}) ]"
+
     def _height(self, z_m: float) -> str:
         """A height over the ground, told from the foot of its floor or from the eaves."""
         levels = [(band.foot_m, floor_foot(band)) for band in self.plan.bands]
@@ -294,7 +310,7 @@ def _part(name: str) -> str:
 _ORDER: Sequence[str] = (
     "window", "shaped", "column", "opening", "panel", "reveal", "balcony", "ledge", "mansard",
     "gable", "hip", "dormer", "slope_column", "chimney", "library_railing", "library_door",
-    "library_dormer", "library_chimney", "library_cornice",
+    "library_dormer", "library_chimney", "library_cornice", "library_shutter",
 )  # fmt: skip
 _COLUMNS = {" Column(": "column", " SlopeColumn(": "slope_column"}
 

@@ -89,6 +89,7 @@ IMPORTS = {
     "library_door": "doors",
     "library_dormer": "dormers",
     "library_cornice": "mouldings",
+    "library_shutter": "shutters",
 }
 """What the parts that take things of the asset library import, of `styles/parts`."""
 

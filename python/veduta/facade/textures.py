@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.cleared import Cleared, clear_surface
-from veduta.facade.document import FacadeDocument, Moulding
+from veduta.facade.document import FacadeDocument
 from veduta.facade.photo_masks import (
     Mask,
     PixelBox,
@@ -24,6 +24,7 @@ from veduta.facade.photo_masks import (
     extent_mask,
     pixels_of,
     seen_mask,
+    strip_mask,
 )
 from veduta.facade.side_wall import side_of
 from veduta.facade.sky_fringe import sky_with_fringe, without_sky
@@ -70,6 +71,7 @@ class Colours:
     chimney: Colour
     door: Colour = (0.29, 0.23, 0.17)
     mouldings: tuple[Colour, ...] = ()
+    shutters: tuple[Colour, ...] = ()
     balconies: dict[int, Colour] = field(default_factory=dict)
 
     @property
@@ -173,8 +175,11 @@ def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) 
         balcony=_darker(crop, element_mask(document, box, "balcony") & seen, USUAL.iron),
         door=_typical(crop, element_mask(document, box, "door") & seen, USUAL.wood),
         mouldings=tuple(
-            _typical(crop, _strip_mask(each, box) & seen, USUAL.stone)
+            _typical(crop, strip_mask(each, box) & seen, USUAL.stone)
             for each in document.mouldings
+        ),
+        shutters=tuple(
+            _typical(crop, strip_mask(each, box) & seen, USUAL.wood) for each in document.shutters
         ),
         balconies={
             number: _darker(crop[own], seen[own], USUAL.iron)
@@ -200,15 +205,6 @@ def _typical(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:
         return otherwise
     median = np.median(pixels[mask], axis=0) / 255.0
     return float(median[0]), float(median[1]), float(median[2])
-
-
-def _strip_mask(moulding: Moulding, box: PixelBox) -> Mask:
-    """Where a moulding lies in the crop."""
-    mask = np.zeros((box.size[1], box.size[0]), dtype=np.bool_)
-    x, y = moulding.x_px - box.x0, moulding.y_px - box.y0
-    rows = slice(max(0, round(y)), max(0, round(y + moulding.height_px)))
-    mask[rows, max(0, round(x)) : max(0, round(x + moulding.width_px))] = True
-    return mask
 
 
 def _darker(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from veduta.facade.casements import casements
 from veduta.facade.elements.balconies import BalconyParameters, find_balconies, texture_energy
 from veduta.facade.elements.boosted import Boosted, SearchedSizes, detector, found_by, stump_values
-from veduta.facade.elements.casements import casements
 from veduta.facade.elements.cornices import find_cornices, seen_bands
 from veduta.facade.elements.grid_energy import EnergyParameters, aligned, grid_energy
 from veduta.facade.elements.texture_error import TextureParameters, blobs, texture_error

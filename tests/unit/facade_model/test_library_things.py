@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from closed_shells import assert_closed
+from numpy.typing import NDArray
 from sample_document import EAVES_PX, METRES_PER_PX, sample_document, sample_photo
 
-from veduta.facade.document import FacadeDocument, Moulding
+from veduta.facade.document import Element, FacadeDocument, Moulding, Shutter, ShutterKind
 from veduta.facade.model import build_model
 from veduta.facade.options import ModelSizes
 from veduta.facade.side_wall import side_of
+from veduta.place.instances import placed
 from veduta.place.part import Part
 from veduta.place.semantics import SemanticClass
 
@@ -29,7 +31,27 @@ def _document() -> FacadeDocument:
         for kind, down, high in (("modillions", 0.0, 0.6), ("string-course", 12.0, 0.2))
     ]
     document = sample_document(sizes=ModelSizes(detail="library"))
-    return document.model_copy(update={"mouldings": mouldings})
+    return document.model_copy(update={"mouldings": mouldings, "shutters": _shutters(document)})
+
+
+def _shutters(document: FacadeDocument) -> list[Shutter]:
+    """An open leaf left of a window behind a balcony, a blind over half of it, one in the wall."""
+    window = _shuttered(document)
+    x, y, wide, high = window.x_px, window.y_px, window.width_px, window.height_px
+
+    def shutter(kind: ShutterKind, left: float, width: float, height: float) -> Shutter:
+        return Shutter(kind=kind, x_px=left, y_px=y, width_px=width, height_px=height, score=0.9)
+
+    return [
+        shutter("open", x - 0.3 * wide, 0.3 * wide, high),
+        shutter("closed", x, wide, 0.5 * high),
+        shutter("closed", 22.0, 30.0, high),
+    ]
+
+
+def _shuttered(document: FacadeDocument) -> Element:
+    """The second window of the second floor; it is 1.2 m wide and 1.7 m high."""
+    return next(e for e in document.elements if (e.x_m, e.y_m) == (4.0, 6.9))
 
 
 @pytest.fixture(scope="module")
@@ -70,6 +92,26 @@ def test_nothing_stands_far_from_where_the_document_has_it(part: Part) -> None:
     assert low[1] > -0.75  # balconies are the furthest before the front
     assert low[0] > -0.2
     assert high[0] < 12.2
+
+
+def test_shutters_lie_beside_their_window_or_in_it(part: Part) -> None:
+    """The leaf goes down to the floor of the balcony; what is before no window is left out."""
+    boxes: dict[str, list[NDArray[np.float64]]] = {}
+    assert part.instances is not None
+    for group in part.instances.groups:
+        corners = placed(group.part_from_mesh, part.instances.meshes[group.mesh].positions_m)
+        for row, points in zip(group.feature.tolist(), corners, strict=True):
+            boxes.setdefault(part.features.name[row], []).append(points)
+    low, high = {}, {}
+    for name in (name for name in boxes if name.startswith("shutter")):
+        points = np.concatenate(boxes[name])
+        low[name], high[name] = points.min(axis=0), points.max(axis=0)
+    assert set(low) == {"shutter 1", "shutter 2"}
+    # y points into the house: the setback is 0.2 m.
+    assert low["shutter 1"] == pytest.approx([3.64, -0.065, 6.1], abs=0.01)
+    assert high["shutter 1"] == pytest.approx([4.0, -0.02, 8.6], abs=0.01)
+    assert low["shutter 2"] == pytest.approx([4.0, 0.135, 7.75], abs=0.02)
+    assert high["shutter 2"] == pytest.approx([5.2, 0.18, 8.6], abs=0.02)
 
 
 def test_the_photo_on_plain_boxes_has_none_of_it() -> None:

@@ -13,7 +13,7 @@ from veduta.facade.cleared.light import even_light
 from veduta.facade.cleared.repeats import own_repeats
 from veduta.facade.cleared.shadows import shadows_below
 from veduta.facade.document import Element, FacadeDocument
-from veduta.facade.photo_masks import Mask, PixelBox, element_mask, pixels_of
+from veduta.facade.photo_masks import Mask, PixelBox, element_mask, pixels_of, strip_mask
 from veduta.surfaces import Repeated, fill_by_repeats
 
 Pixels = NDArray[np.uint8]
@@ -73,6 +73,10 @@ def clear_surface(
         for place, name in enumerate(KINDS)
         if place and (kinds == place).any()
     }
+    leaves = _open_leaves(document, box)
+    if leaves.any():
+        holes = holes | leaves
+        shares["shutter"] = float(leaves.mean())
     if unseen is not None and (holes | unseen).mean() <= MOST_HIDDEN:
         holes = holes | unseen
     pixels, copied = crop, 0.0
@@ -134,6 +138,24 @@ def _with_balconies(
             slab = rows.stop + round((SLAB_SPREAD - BALCONY_SPREAD) * element.height_px)
             kinds[rows.start : slab, columns] = KINDS.index("balcony")
     return kinds
+
+
+def _open_leaves(document: FacadeDocument, box: PixelBox) -> Mask:
+    """Where open shutters lie on the wall that the model has as things of their own.
+
+    A leaf throws a shadow, and its hinges reach to the window: a tenth of its width goes along.
+    """
+    mask = np.zeros((box.size[1], box.size[0]), dtype=np.bool_)
+    if document.model.detail != "library":
+        return mask
+    for each in document.shutters:
+        if each.kind == "open":
+            reach = 2 * max(1, round(0.1 * each.width_px)) + 1
+            own = strip_mask(each, box).astype(np.uint8)
+            mask |= cv2.dilate(own, np.ones((reach, reach), np.uint8)) > 0
+    for class_ in ("window", "door", "shop"):
+        mask &= ~element_mask(document, box, class_)
+    return mask
 
 
 def _is_guess_in_roof(element: Element, document: FacadeDocument) -> bool:

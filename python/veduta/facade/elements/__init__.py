@@ -2,7 +2,6 @@
 
 from veduta.facade.elements.balconies import BalconyParameters, find_balconies
 from veduta.facade.elements.boosted import find_boosted
-from veduta.facade.elements.casements import Casement, CasementParameters, casements
 from veduta.facade.elements.cornices import (
     BandParameters,
     CorniceParameters,
@@ -14,12 +13,9 @@ from veduta.facade.elements.windows import WindowParameters, WindowsFound, find_
 __all__ = [
     "BalconyParameters",
     "BandParameters",
-    "Casement",
-    "CasementParameters",
     "CorniceParameters",
     "WindowParameters",
     "WindowsFound",
-    "casements",
     "find_balconies",
     "find_boosted",
     "find_cornices",
