@@ -175,8 +175,7 @@ def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) 
         balcony=_darker(crop, element_mask(document, box, "balcony") & seen, USUAL.iron),
         door=_typical(crop, element_mask(document, box, "door") & seen, USUAL.wood),
         mouldings=tuple(
-            _typical(crop, strip_mask(each, box) & seen, USUAL.stone)
-            for each in document.mouldings
+            _typical(crop, strip_mask(each, box) & seen, USUAL.stone) for each in document.mouldings
         ),
         shutters=tuple(
             _typical(crop, strip_mask(each, box) & seen, USUAL.wood) for each in document.shutters
