@@ -77,7 +77,7 @@ def _read(name: str) -> Found:
 def _labels(name: str) -> NDArray[np.uint8]:
     """(h, w) 1 where CMP has a blind."""
     with Image.open(DATA / "facades/cmp" / f"{name}.png") as image:
-        return (np.array(image) == CMP_BLIND).astype(np.uint8)
+        return np.asarray(np.array(image) == CMP_BLIND, np.uint8)
 
 
 def _drawn(boxes: Sequence[Sequence[float]], shape: tuple[int, ...]) -> NDArray[np.uint8]:

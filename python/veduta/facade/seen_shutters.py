@@ -45,8 +45,8 @@ def seen_shutters(
     found: list[Shutter] = []
     for window, one in zip(windows, casements(seen, looked, p.own), strict=True):
         found += _leaves(one, _free(window, windows), chance, scale, p)
-    for one in looked:
-        found += _closed(one, chance, scale, p)
+    for box in looked:
+        found += _closed(box, chance, scale, p)
     return found
 
 
