@@ -9,6 +9,7 @@ import numpy as np
 
 from veduta.facade.above_eaves import Surfaces
 from veduta.facade.boxes import Box
+from veduta.facade.columns import Columns
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import Evidence, Float, gather
@@ -40,7 +41,7 @@ from veduta.facade.seen_front import (
     require_front,
     sides_of,
 )
-from veduta.facade.seen_storeys import storeys_of
+from veduta.facade.seen_storeys import Storeys, storeys_of
 from veduta.facade.sides import Sides, crop, find_sides, whole
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import StepProgress, no_progress
@@ -258,49 +259,66 @@ def _read(
     inner, skyline = crop(front.evidence, front.sky, sides)
     with timed_step(steps, "floors") as step:
         progress("floors", 0.5)
-        elements = front.between(sides.left, sides.right)
-        if not elements:
-            reason = "between the left and the right end of the building is no window or door"
-            raise NotFoundError("a facade", reason, REMEDY)
-        surfaces = front.surfaces(sides.left, sides.right, inner.height)
-        storeys = storeys_of(inner, skyline, elements, surfaces, options)
+        storeys, elements = _floors(front, sides, inner, skyline, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
         step.rejected.extend(
             f"{one.kind}: between even storeys, or in a strip: a relief or a sign"
             for one in storeys.none
         )
     with timed_step(steps, "openings") as step:
-        elements = [e for e in elements if e not in storeys.none]
-        elements = on_their_floors(elements, storeys.floors.boundaries)
-        shop = front.shop[: inner.height, sides.left : sides.right]
-        elements = with_panes_of_shops(elements, storeys.floors.boundaries, shop)
-        columns = columns_of(elements)
-        boxes = boxes_of(elements, storeys.floors.boundaries, columns)
-        panes = [box for box in boxes if front.is_pane(box, sides.left)]
-        others = [box for box in boxes if not front.is_pane(box, sides.left)]
-        boxes = [*with_heads(others, inner.lab), *panes]
-        above = len(storeys.floors.boundaries) - 1
-        before = front.hidden[: inner.height, sides.left : sides.right]
-        hidden = hidden_windows(boxes, columns, above, before)
-        step.counts["hidden"] = len(hidden)
-        # Balconies are painted last.
-        boxes = sorted([*boxes, *hidden], key=lambda box: box.kind == "balcony")
+        columns, boxes = _openings(front, sides, inner, storeys, elements)
+        hidden = sum(box.is_inferred for box in boxes)
+        step.counts["hidden"] = hidden
         step.counts["arched"] = sum(bool(box.outline) for box in boxes)
         for kind in front.seen.kinds:
             step.counts[kind] = sum(box.kind == kind for box in boxes)
     with timed_step(steps, "document"):
-        doubts = [*storeys.doubts]
         parse = Parse(
-            inner, front.sky, skyline, sides, storeys.floors, columns, boxes, doubts, storeys.gable,
-            storeys.roof,
+            inner, front.sky, skyline, sides, storeys.floors, columns, boxes, [*storeys.doubts],
+            storeys.gable, storeys.roof,
         )  # fmt: skip
         document = compose(parse, front.rectified, front.source, options)
-        notes = [*document.notes, *hidden_notes(front.seen, FrontParameters())]
-        metres_per_px = document.scale.metres_per_px / front.evidence.px_per_rectified
-        notes += filter(None, [glass_note(front.glass, metres_per_px), width_doubt(document)])
-        if hidden:
-            notes.append(f"windows: {len(hidden)} are hidden, and taken to be as those beside them")
-        return document.model_copy(update={"notes": notes})
+        return document.model_copy(update={"notes": _notes(front, document, hidden)})
+
+
+def _floors(
+    front: _Front, sides: Sides, inner: Evidence, skyline: Skyline, options: FacadeOptions
+) -> tuple[Storeys, list[SeenElement]]:
+    """The storeys between the sides, and the elements there; NotFoundError where there is none."""
+    elements = front.between(sides.left, sides.right)
+    if not elements:
+        reason = "between the left and the right end of the building is no window or door"
+        raise NotFoundError("a facade", reason, REMEDY)
+    surfaces = front.surfaces(sides.left, sides.right, inner.height)
+    storeys = storeys_of(inner, skyline, elements, surfaces, options)
+    return storeys, [e for e in elements if e not in storeys.none]
+
+
+def _openings(
+    front: _Front, sides: Sides, inner: Evidence, storeys: Storeys, elements: list[SeenElement]
+) -> tuple[Columns, list[Box]]:
+    """The boxes of the elements in their shapes, and of hidden windows; balconies are last."""
+    boundaries = storeys.floors.boundaries
+    part = np.s_[: inner.height, sides.left : sides.right]
+    elements = on_their_floors(elements, boundaries)
+    elements = with_panes_of_shops(elements, boundaries, front.shop[part])
+    columns = columns_of(elements)
+    boxes = boxes_of(elements, boundaries, columns)
+    panes = [box for box in boxes if front.is_pane(box, sides.left)]
+    others = [box for box in boxes if not front.is_pane(box, sides.left)]
+    boxes = [*with_heads(others, inner.lab), *panes]
+    hidden = hidden_windows(boxes, columns, len(boundaries) - 1, front.hidden[part])
+    return columns, sorted([*boxes, *hidden], key=lambda box: box.kind == "balcony")
+
+
+def _notes(front: _Front, document: FacadeDocument, hidden: int) -> list[str]:
+    """Those of the document, and what stands before the front, is of glass, unsure or hidden."""
+    metres_per_px = document.scale.metres_per_px / front.evidence.px_per_rectified
+    notes = [*document.notes, *hidden_notes(front.seen, FrontParameters())]
+    notes += filter(None, [glass_note(front.glass, metres_per_px), width_doubt(document)])
+    if hidden:
+        notes.append(f"windows: {hidden} are hidden, and taken to be as those beside them")
+    return notes
 
 
 def _sides(
