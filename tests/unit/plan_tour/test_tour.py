@@ -18,6 +18,7 @@ from veduta.plan.house.build import House, build_house
 from veduta.plan.house.entrance import entrances
 from veduta.plan.house.placing import place_of
 from veduta.plan.options import HouseOptions
+from veduta.plan.tour import find
 from veduta.plan.tour.clear_view import before_eyes
 from veduta.plan.tour.find import EYE_M, INDOORS, Tour, find_tour
 from veduta.plan.tour.free import BODY_M
@@ -90,6 +91,19 @@ def test_a_fifth_is_outdoors_at_most_and_no_wall_is_before_ones_eyes(seed: int) 
     walls = nearest_walls(house, tour)
     # Doorways and corners are passed: of a hundred looks a few meet a wall that is nearer.
     assert float((walls < 1.0).mean()) < 0.05
+
+
+def test_what_slow_turns_add_outdoors_is_taken_off_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As much as if half as much again had been planned as there may be."""
+    house = build_house(document_of(make_house(21_002, storeys=1)), HouseOptions())
+    monkeypatch.setattr(find, "SPARED", 1.5)
+    monkeypatch.setattr(find, "TRIES", 1)
+    much = find_tour(house, SPEED_M_S)
+    monkeypatch.setattr(find, "TRIES", 4)
+    less = find_tour(house, SPEED_M_S)
+    assert much is not None
+    assert less is not None
+    assert shares(much) > find.OUTDOORS >= shares(less) > 0.5 * find.OUTDOORS
 
 
 def test_cupboards_are_not_visited() -> None:

@@ -29,15 +29,18 @@ class ViewRule:
     near_m: a wall nearer than this is one before one's eyes; 1 m is asked for, the rest is for the
     calm of the head. blocked: cost of each metre that is missing to that, a second, beside the
     square of the angle (rad) to the wish. turning: cost of the square of a turn between two
-    samples. step_rad, reach: directions, and by how many of them one turns in a sample. cell_m: of
-    the map of walls. margin_m: by which it goes beyond them; who is farther away sees far.
+    samples. step_rad, reach: directions, and by how many of them one turns in a sample: who turns
+    faster than the view may is slowed down, with a wall before the eyes; who turns slower does not
+    look around in narrow rooms. cell_m: of the map of walls. margin_m: by which it goes beyond
+    them; who is farther away sees far. Chosen on ten drawn houses (seeds 31000 to 31009), so that
+    as many rooms are looked around in.
     """
 
-    near_m: float = 1.5
+    near_m: float = 1.2
     blocked: float = 100.0
     turning: float = 0.5
     step_rad: float = np.pi / 36.0
-    reach: int = 4
+    reach: int = 2
     cell_m: float = 0.05
     margin_m: float = 2.0
 

@@ -23,10 +23,10 @@ from veduta.plan.tour.clear_view import cleared, sights_of
 from veduta.plan.tour.free import Ground
 from veduta.plan.tour.grid import CELL_M, Cells, Grid
 from veduta.plan.tour.outside import Outside, outside_of
-from veduta.plan.tour.planned import THROUGH, planned, shut_notes
+from veduta.plan.tour.planned import THROUGH, Plan, planned, shut_notes
 from veduta.plan.tour.smooth import STEP_M, lengths_along, resampled, smoothed
 from veduta.plan.tour.stops import Stop, short_order
-from veduta.plan.tour.stretches import Stretch, stretches_of
+from veduta.plan.tour.stretches import Stretch, outdoor_share, stretches_of
 
 EYE_M = 1.7
 FOV_RAD = math.radians(60.0)
@@ -38,7 +38,9 @@ ON_FLOOR_M = 0.05
 OUTDOORS = 0.2
 """At most so much of the tour is outdoors ..."""
 SPARED = 0.8
-"""... of which so much is planned: slow turns add to it."""
+"""... of which so much is planned: slow turns add to it. Where they add more, so often ..."""
+TRIES, LESS = 4, 0.95
+"""... less is planned, by a little more than what was too much."""
 COMING = 0.7
 """Of the time outdoors so much is for coming, the rest for leaving."""
 LEAST_M = 1.0
@@ -80,10 +82,7 @@ def find_tour(house: House, speed_m_s: float, *, indoors: bool = False) -> Tour 
         return None
     legs = _legs_through(plan.begin.node, plan.found.stops, plan.grid, plan.grounds)
     around = outside if plan.begin.is_outside else None
-    ring, legs = _shared_out(legs, around, first.slab, speed_m_s)
-    motions = _motions(legs, ring, first.slab, speed_m_s)
-    sights = sights_of(plan.grounds, plan.leaves)
-    timed = pace.timed(motions, lambda feet, yaw: cleared(feet, yaw, sights))
+    timed = _timed(legs, around, plan, first.slab, speed_m_s)
     eyes = timed.feet_m + np.array([0.0, 0.0, EYE_M])
     path = CameraPath("tour", timed.times_s, eyes, timed.directions, FOV_RAD)
     length = float(np.linalg.norm(np.diff(eyes, axis=0), axis=1).sum())
@@ -96,6 +95,23 @@ def find_tour(house: House, speed_m_s: float, *, indoors: bool = False) -> Tour 
     ids = tuple(house.part.features.id[door] for door in plan.shut)
     passed = stretches_of(timed, plan.grounds)
     return Tour(path, passed, length, notes, plan.grounds, plan.shut, ids)
+
+
+def _timed(
+    legs: Sequence[Leg], around: Outside | None, plan: Plan, slab: BaseGeometry, speed_m_s: float
+) -> pace.Timed:
+    """All in its time; less outdoors, where slow turns there made it too much."""
+    sights = sights_of(plan.grounds, plan.leaves)
+    planned_share = SPARED * OUTDOORS
+    for _ in range(TRIES):
+        ring, cut = _shared_out(legs, around, slab, speed_m_s, planned_share)
+        motions = _motions(cut, ring, slab, speed_m_s)
+        timed = pace.timed(motions, lambda feet, yaw: cleared(feet, yaw, sights))
+        share = outdoor_share(stretches_of(timed, plan.grounds))
+        if around is None or share <= OUTDOORS:
+            break
+        planned_share *= LESS * OUTDOORS / share
+    return timed
 
 
 def coarse_notes(grounds: Sequence[Ground], squares: Sequence[Cells]) -> list[str]:
@@ -186,12 +202,12 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
 
 
 def _shared_out(
-    legs: Sequence[Leg], outside: Outside | None, slab: BaseGeometry, speed_m_s: float
+    legs: Sequence[Leg], outside: Outside | None, slab: BaseGeometry, speed_m_s: float, share: float
 ) -> tuple[NDArray[np.float64] | None, list[Leg]]:
     """The way around the house (n, 2), or what of it there is time for, and the legs, cut likewise.
 
-    Outdoors one is for OUTDOORS of the tour at most: first the walk around is shortened to its end,
-    then the way from there to the door and back.
+    Outdoors one is for this share of the tour: first the walk around is shortened to its end, then
+    the way from there to the door and back.
     """
     if outside is None or len(legs) < 2:
         return None, list(legs)
@@ -200,7 +216,7 @@ def _shared_out(
         x, y, z = motion.feet_m.T
         indoors = shapely.contains_xy(slab, x, y) | (np.abs(z - motion.feet_m[0, 2]) > ON_FLOOR_M)
         inside_s += pace.SAMPLE_S * float(indoors.sum())
-    budget_m = SPARED * OUTDOORS / (1.0 - OUTDOORS) * inside_s * speed_m_s
+    budget_m = share / (1.0 - share) * inside_s * speed_m_s
     first, last = legs[0], legs[-1]
     come, come_m = _cut_outdoors(first.points_m[::-1], slab, max(COMING * budget_m, LEAST_M))
     leave, leave_m = _cut_outdoors(last.points_m, slab, max((1.0 - COMING) * budget_m, LEAST_M))

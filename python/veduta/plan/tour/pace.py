@@ -20,7 +20,9 @@ START_M_S2 = 1.0
 """From standing to walking, and back."""
 SAMPLE_S = 0.1
 CALM_S = 0.4
-"""Standard deviation of the filter over directions: heads do not jerk."""
+"""Standard deviation of the filter over the wished directions: heads do not jerk."""
+STEADY_S = 0.2
+"""The same, over those that see past walls: a wider one would bring walls before the eyes again."""
 MARGIN = 0.9
 """Of the limit is aimed at, for what is lost between the keys."""
 KEY_S = 1.0
@@ -95,11 +97,10 @@ def timed(motions: list[Motion], look_past: Look | None = None) -> Timed:
     faster than the limit, all goes slower there.
     """
     feet = np.concatenate([motion.feet_m for motion in motions])
-    yaw = _joined([motion.yaw for motion in motions])
-    if look_past is not None:
-        yaw = look_past(feet, yaw)
     calm = CALM_S / SAMPLE_S
-    yaw = gaussian_filter1d(yaw, calm, mode="nearest")
+    yaw = gaussian_filter1d(_joined([motion.yaw for motion in motions]), calm, mode="nearest")
+    if look_past is not None:
+        yaw = gaussian_filter1d(look_past(feet, yaw), STEADY_S / SAMPLE_S, mode="nearest")
     pitch = np.concatenate([motion.pitch for motion in motions])
     pitch = gaussian_filter1d(pitch, calm, mode="nearest")
     needed = np.hypot(np.diff(yaw), np.diff(pitch)) / (MARGIN * TURN_RAD_S * SAMPLE_S)

@@ -42,6 +42,12 @@ def stretches_of(timed: Timed, grounds: Sequence[Ground]) -> tuple[Stretch, ...]
     return tuple(found)
 
 
+def outdoor_share(stretches: Sequence[Stretch]) -> float:
+    """How much of a tour is outside."""
+    outside = sum(one.end_s - one.start_s for one in stretches if one.title == OUTSIDE)
+    return outside / stretches[-1].end_s if stretches and stretches[-1].end_s > 0.0 else 0.0
+
+
 def _place_at(
     feet: NDArray[np.float64], grounds: Sequence[Ground]
 ) -> tuple[str | None, str, int | None] | None:
