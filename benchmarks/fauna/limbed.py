@@ -168,6 +168,11 @@ def _pair(name: str) -> str:
     return "front" if name.startswith(("front", "elbow", "wrist")) else "hind"
 
 
+def joints_near(film: Filmed, seen: LimbedSeen, joints: Floats, rows: NDArray[np.int64]) -> Floats:
+    """(t, n) distances of joints (t, j, 2; px) from the truth, in lengths; sides as they fit."""
+    return _near(film, seen, joints, rows, _swapped(film, seen, joints, rows))
+
+
 def _near(
     film: Filmed, seen: LimbedSeen, joints: Floats, rows: NDArray[np.int64], swapped: set[str]
 ) -> Floats:

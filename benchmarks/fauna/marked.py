@@ -45,7 +45,8 @@ def main() -> None:
     kept = KeptClips(given.kept)
     folder = DATA / "animals" / "dog"
     footage = read_footage(folder / "frames", None)
-    found = silhouettes_of(read_masks(folder / "masks", footage), SilhouetteLooks(), "dog")
+    masks = read_masks(folder / "masks", footage)
+    found = silhouettes_of(masks, SilhouetteLooks(), "dog", with_cut=True)
     plan = load_plan("quadruped")
     own = read_annotated(folder / "badja_dog.json", len(footage.frames), figure_of(plan).names).px
     marked = {name: at * (footage.size[0] / ANNOTATED_PX) for name, at in own.items()}
@@ -84,7 +85,15 @@ def measured(
     plan = load_plan("quadruped")
     pictures = footage.frames[found.rows]
     seen = fit_limbed(
-        found.masks, found.rows, plan, LimbedLooks(), lambda: None, pins, pictures, trust
+        found.masks,
+        found.rows,
+        plan,
+        LimbedLooks(),
+        lambda: None,
+        pins,
+        pictures,
+        trust,
+        found.shown(),
     )
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
     deep = seen.fitted.deep * seen.fitted.px_per_length

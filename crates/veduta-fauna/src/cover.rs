@@ -19,7 +19,8 @@ pub struct Capsules<'a> {
 }
 
 /// What a figure is compared with: the places looked at, how much each counts, and, frame by frame,
-/// how much of each place the silhouette has. All lengths are in one unit.
+/// how much of each place the silhouette has, NaN where a frame does not show it. All lengths are in
+/// one unit.
 pub struct Looked<'a> {
     pub places: &'a [[f32; 2]],
     pub weights: &'a [f32],
@@ -207,7 +208,8 @@ fn one_frame(
     by_deep: &mut [f64],
 ) -> f64 {
     let capsule = laid(capsules, pose, looked.soft);
-    let area = shares.iter().sum::<f32>().max(1.0);
+    let known = shares.iter().filter(|share| !share.is_nan());
+    let area = known.sum::<f32>().max(1.0);
     let slope = -2.0 / (looked.soft * area);
     let mut near = vec![Felt::default(); capsule.len()];
     let mut loss = 0.0f64;
@@ -227,7 +229,12 @@ fn one_frame(
         let mut pull = [0.0; LANES];
         let mut lost = 0.0f32;
         for lane in 0..LANES {
-            let error = 1.0 - empty[lane] - share[lane];
+            let shown = !share[lane].is_nan();
+            let error = if shown {
+                1.0 - empty[lane] - share[lane]
+            } else {
+                0.0
+            };
             lost += block.weights[lane] * error * error;
             pull[lane] = slope * block.weights[lane] * error * empty[lane];
         }

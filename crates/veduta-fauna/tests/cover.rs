@@ -111,3 +111,50 @@ fn what_does_not_belong_together_is_refused() {
         Err(CoverError::Soft { soft: 0.0 })
     );
 }
+
+#[test]
+fn what_a_frame_does_not_show_pulls_nothing() -> Result<(), CoverError> {
+    let (joints, deep) = ([[0.2, 0.2], [0.5, 0.5], [0.9, 0.9], [0.1, 0.9]], [0.1; 4]);
+    let places = places();
+    let weights = vec![1.0; places.len()];
+    let capsules = Capsules {
+        start: &START,
+        end: &END,
+        deep: &deep,
+    };
+    let hidden = |p: &[f32; 2]| p[0] > 0.6;
+    let known: Vec<usize> = (0..places.len()).filter(|&k| !hidden(&places[k])).collect();
+    let mut shares = shares(&places);
+    for (share, place) in shares.iter_mut().zip(&places) {
+        if hidden(place) {
+            *share = f32::NAN;
+        }
+    }
+    let found = cover(
+        &capsules,
+        &joints,
+        &Looked {
+            places: &places,
+            weights: &weights,
+            shares: &shares,
+            soft: 0.08,
+        },
+    )?;
+    let fewer: Vec<[f32; 2]> = known.iter().map(|&k| places[k]).collect();
+    let seen: Vec<f32> = known.iter().map(|&k| shares[k]).collect();
+    let alone = cover(
+        &capsules,
+        &joints,
+        &Looked {
+            places: &fewer,
+            weights: &weights[..known.len()],
+            shares: &seen,
+            soft: 0.08,
+        },
+    )?;
+    assert!((found.loss[0] - alone.loss[0]).abs() < 1e-4 * alone.loss[0]);
+    for (one, other) in found.by_joint.iter().zip(&alone.by_joint) {
+        assert!((0..2).all(|axis| (one[axis] - other[axis]).abs() < 1e-3));
+    }
+    Ok(())
+}

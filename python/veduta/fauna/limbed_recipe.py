@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -31,6 +31,7 @@ from veduta.run.work import Work
 _MOST_FRAMES = 72
 """More are not fitted: a cycle is in them many times over."""
 _FEWEST_FRAMES = 5
+_CUT = "the frame's border cuts the animal; it is fitted from what is seen of it"
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,11 +61,15 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
     plan = plan_for(record, options)
     footage = still_footage(work, record, options)
     with work.step("silhouettes") as step:
-        found, _ = silhouettes_in(footage, record.masks, record.background, record.path.name)
+        found, _ = silhouettes_in(
+            footage, record.masks, record.background, record.path.name, with_cut=True
+        )
         step.counts["good"] = len(found.rows)
         left_out = [f"frame {footage.number[row]}: {why}" for row, why in found.left_out]
         step.rejected.extend(left_out)
-    found = _fewer(found)
+        found = _fewer(found)
+        cut = [] if found.cut is None else [int(n) for n in footage.number[found.rows[found.cut]]]
+        step.rejected.extend(f"frame {number}: {_CUT}" for number in cut)
     pins = pins_of(work, record, footage, found, plan, options.footage)
     with work.step("figure") as step:
         seen = fit_limbed(
@@ -72,7 +77,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
             lambda: work.progress("figure", 0.5),
             {name: places[found.rows] for name, places in pins.px.items()},
             footage.frames[found.rows],
-            {name: trust[found.rows] for name, trust in pins.trust.items()},
+            {name: trust[found.rows] for name, trust in pins.trust.items()}, found.shown(),
         )  # fmt: skip
         step.counts["segments"] = len(seen.fitted.figure.start)
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
@@ -83,6 +88,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         frames=len(footage.frames),
         used=len(found.rows),
         left_out=left_out,
+        cut=cut,
         scores=frame_scores(found, footage.number),
     )
     with work.step("gait") as step:
@@ -100,18 +106,22 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
 
 
 def _fewer(found: Silhouettes) -> Silhouettes:
-    """The middle ones, if they are many; NotFoundError where they are too few."""
-    if len(found.rows) < _FEWEST_FRAMES:
+    """The middle ones, if they are many, of those that show it whole if these are enough;
+    NotFoundError where they are too few.
+    """
+    whole = np.arange(len(found.rows)) if found.cut is None else np.flatnonzero(~found.cut)
+    if len(whole) < _FEWEST_FRAMES:
         raise NotFoundError(
             "the animal's motion",
-            f"only {len(found.rows)} frames show it whole",
+            f"only {len(whole)} frames show it whole",
             f"Give footage in which at least {_FEWEST_FRAMES} frames do.",
         )
+    if len(whole) >= _MOST_FRAMES:
+        found = found.of(whole)
     if len(found.rows) <= _MOST_FRAMES:
         return found
     first = (len(found.rows) - _MOST_FRAMES) // 2
-    kept = slice(first, first + _MOST_FRAMES)
-    return replace(found, masks=found.masks[kept], rows=found.rows[kept], score=found.score[kept])
+    return found.of(slice(first, first + _MOST_FRAMES))
 
 
 def _overlaps(seen: LimbedSeen, found: Silhouettes, joints: Floats) -> Floats:

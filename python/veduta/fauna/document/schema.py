@@ -38,6 +38,12 @@ class Source(Record):
     frames: int = Field(ge=1)
     used: int = Field(ge=1)
     left_out: list[str] = Field(default=[], max_length=100_000, description="frames, and why")
+    cut: list[int] = Field(
+        default=[],
+        max_length=100_000,
+        description="numbers of the frames whose border cuts the animal, which was fitted from"
+        " what is seen of it there",
+    )
     scores: list[tuple[int, Share]] = Field(
         default=[],
         max_length=100_000,

@@ -12,6 +12,7 @@ from veduta.fauna.document.plan import BodyPlan
 from veduta.fauna.motion.figure import Floats, figure_of
 from veduta.fauna.read.basis import Basis, FitLooks, cycle_basis, spline_basis
 from veduta.fauna.read.fit import Fit, Fitted
+from veduta.fauna.read.laid_on import Shown
 from veduta.fauna.read.nearer import Nearer
 from veduta.fauna.read.sides import sides_told
 from veduta.fauna.read.silhouettes import Masks
@@ -62,17 +63,19 @@ def fit_limbed(
     masks: Masks, frames: NDArray[np.int64], plan: BodyPlan, looks: LimbedLooks,
     heard: Callable[[], None], pins: Mapping[str, Floats] | None = None,
     pictures: NDArray[np.uint8] | None = None, trust: Mapping[str, Floats] | None = None,
+    shown: Shown | None = None,
 ) -> LimbedSeen:  # fmt: skip
     """The figure of a plan in silhouettes (t, h, w) of the numbered frames.
 
     pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere. trust: (t,) by joint, how
-    much each mark counts, if not 1. pictures: (t, h, w, 3) of
-    the frames: they tell near legs from far ones, and how the ground goes by.
+    much each mark counts, if not 1. shown: of each frame that cuts the animal (h, w) what it shows,
+    None of the others. pictures: (t, h, w, 3) of the frames: they tell near legs from far ones, and
+    how the ground goes by.
     """
     optional = {part.name for part in plan.parts if part.optional}
     number = frames.astype(np.float64)
-    middle = middles_of(masks)
-    coarse = windows_of(masks, looks.coarse_cells, middle).marked(pins or {}, trust or {})
+    middle = middles_of(masks, shown)
+    coarse = windows_of(masks, looks.coarse_cells, middle, shown).marked(pins or {}, trust or {})
     top = plan.view == "top"
     repeats = repeat_of(coarse, top=top)
     cycle, score = None, 0.0
@@ -86,7 +89,7 @@ def fit_limbed(
     start = best_start(figure, coarse, number, basis, looks.fit, looks.start, ways, heard)
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
-    fine = windows_of(masks, looks.fine_cells, middle).marked(pins or {}, trust or {})
+    fine = windows_of(masks, looks.fine_cells, middle, shown).marked(pins or {}, trust or {})
     if start.fit.windows.faces < 0.0:
         fine = fine.mirrored()
     if cycle is not None:

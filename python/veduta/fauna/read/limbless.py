@@ -37,13 +37,21 @@ class Seen:
 
 
 def silhouettes_in(
-    footage: Footage, masks: Path | None, background: Path | None, name: str
+    footage: Footage,
+    masks: Path | None,
+    background: Path | None,
+    name: str,
+    *,
+    with_cut: bool = False,
 ) -> tuple[Silhouettes, Background | None]:
-    """The animal's silhouettes: from masks, against a given background, or an estimated one."""
+    """The animal's silhouettes: from masks, against a given background, or an estimated one.
+
+    with_cut: frames in which the border cuts the animal, too.
+    """
     looks = SilhouetteLooks()
     if masks is not None:
         given = footage.on_canvas(read_masks(masks, footage))
-        return silhouettes_of(given, looks, name, footage.corners()), None
+        return silhouettes_of(given, looks, name, footage.corners(), with_cut=with_cut), None
     if background is not None:
         pixels = footage.piece(read_image(background).pixels)
         if pixels.shape[:2] != footage.size:
@@ -54,7 +62,7 @@ def silhouettes_in(
         _require_motion(footage, name)
         behind = estimated_background(footage.frames, BackgroundLooks())
     raw = differing(footage.frames, behind, looks)
-    return silhouettes_of(raw, looks, name, footage.corners()), behind
+    return silhouettes_of(raw, looks, name, footage.corners(), with_cut=with_cut), behind
 
 
 def axes_in(silhouettes: Silhouettes) -> tuple[Axis | None, ...]:

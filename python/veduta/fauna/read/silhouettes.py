@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -40,18 +40,51 @@ class SilhouetteLooks:
     """A silhouette that touches the frame's border along this share of its outline is cut."""
     spread: float = 0.35
     """A frame whose area is farther from the usual one by this share is no good frame."""
+    about: int = 9
+    """Of an animal with legs the usual area is that of so many frames about each one: it may turn,
+    or come nearer."""
+    widely: float = 2.5
+    """But it is not so many times as large as in the usual frame, nor so many times smaller."""
+    shown: float = 0.3
+    """Where frames that the border cuts are taken, so much of the usual area is to be seen."""
 
 
 @dataclass(frozen=True, eq=False)
 class Silhouettes:
     """masks: (t, h, w) bool of the good frames, given by `rows` of the footage. score: (t,) 0..1.
-    left_out: (row, reason) of the others.
+    left_out: (row, reason) of the others. cut: (t,) where the frame's border cuts the animal;
+    corners: (t, 4, 2) px of what each frame shows of a canvas, None: all of it.
     """
 
     masks: Masks
     rows: NDArray[np.int64]
     score: NDArray[np.float64]
     left_out: tuple[tuple[int, str], ...]
+    cut: NDArray[np.bool_] | None = None
+    corners: NDArray[np.float64] | None = None
+
+    def of(self, kept: NDArray[np.int64] | slice) -> Silhouettes:
+        """Some of the good frames."""
+        cut = None if self.cut is None else self.cut[kept]
+        corners = None if self.corners is None else self.corners[kept]
+        return replace(
+            self, masks=self.masks[kept], rows=self.rows[kept], score=self.score[kept], cut=cut,
+            corners=corners,
+        )  # fmt: skip
+
+    def shown(self) -> list[Masks | None]:
+        """Of each frame that the border cuts, (h, w) what it shows; None: the animal is whole."""
+        found: list[Masks | None] = []
+        for row, mask in enumerate(self.masks):
+            if self.cut is None or not self.cut[row]:
+                found.append(None)
+            elif self.corners is None:
+                found.append(np.ones_like(mask))
+            else:
+                inside = np.zeros(mask.shape, np.uint8)
+                cv2.fillConvexPoly(inside, np.round(self.corners[row] - 0.5).astype(np.int32), 1)
+                found.append(cv2.erode(inside, np.ones((5, 5), np.uint8)) > 0)
+        return found
 
 
 def differing(frames: NDArray[np.uint8], background: Background, looks: SilhouetteLooks) -> Masks:
@@ -77,12 +110,14 @@ def differing(frames: NDArray[np.uint8], background: Background, looks: Silhouet
 
 
 def silhouettes_of(
-    raw: Masks, looks: SilhouetteLooks, what: str, corners: NDArray[np.float64] | None = None
-) -> Silhouettes:
+    raw: Masks, looks: SilhouetteLooks, what: str, corners: NDArray[np.float64] | None = None, *,
+    with_cut: bool = False,
+) -> Silhouettes:  # fmt: skip
     """The animal's own silhouette in each frame; NotFoundError where there is no such thing.
 
     raw: (t, h, w), everything that differs, or masks that somebody made. corners: (t, 4, 2) px of
-    what each frame shows of a canvas; None: all of it.
+    what each frame shows of a canvas; None: all of it. with_cut: frames in which the border cuts it
+    are good ones, too, and so are those of an animal that comes nearer or turns.
     """
     area_px = raw.shape[1] * raw.shape[2]
     masks = np.zeros_like(raw)
@@ -99,17 +134,32 @@ def silhouettes_of(
     _require_one_animal(seen, seconds, cut, looks, what)
     usual = float(np.median(areas[seen & ~cut]))
     spread = np.abs(areas - usual) / usual
+    taken = np.zeros_like(seen)
+    if with_cut:
+        about = _about(areas, seen & ~cut, looks.about)
+        widely = (areas < looks.widely * usual) & (areas > usual / looks.widely)
+        spread = np.where(widely, np.abs(areas - about) / about, spread)
+        taken = seen & cut & (areas > looks.shown * about) & (areas < (1.0 + looks.spread) * about)
     reasons = {
         "nothing differs from the background there": ~seen,
-        "the frame's border cuts the animal": seen & cut,
+        "the frame's border cuts the animal": seen & cut & ~taken,
         "its silhouette is not as large as in the others": seen & ~cut & (spread > looks.spread),
     }
     left_out = [
         (int(row), reason) for reason, rows in reasons.items() for row in np.flatnonzero(rows)
     ]
-    good = seen & ~cut & (spread <= looks.spread)
+    good = taken | (seen & ~cut & (spread <= looks.spread))
     score = np.clip(1.0 - spread, 0.0, 1.0) * np.clip(1.0 - seconds, 0.0, 1.0)
-    return Silhouettes(masks[good], np.flatnonzero(good), score[good], tuple(sorted(left_out)))
+    own = None if corners is None else corners[good]
+    rows = np.flatnonzero(good)
+    return Silhouettes(masks[good], rows, score[good], tuple(sorted(left_out)), cut[good], own)
+
+
+def _about(areas: NDArray[np.float64], good: NDArray[np.bool_], frames: int) -> NDArray[np.float64]:
+    """(t,) the median area of the good frames that are nearest to each one."""
+    rows = np.flatnonzero(good)
+    near = np.argsort(np.abs(np.arange(len(areas))[:, None] - rows), axis=1)[:, :frames]
+    return np.asarray(np.median(areas[rows][near], axis=1))
 
 
 def frame_scores(silhouettes: Silhouettes, number: NDArray[np.int64]) -> list[tuple[int, float]]:

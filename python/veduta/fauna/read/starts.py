@@ -64,7 +64,9 @@ def scale_of(figure: Figure, windows: Windows) -> float:
     cells = 200.0
     flipped = (joints - joints.mean(axis=0)) * np.array([1.0, -1.0]) * cells + 300.0
     covers = drawn_figure(figure, flipped, figure.deep * cells, (600, 600)).sum() / cells**2
-    area = float(np.median(windows.shares.sum(axis=(1, 2)))) * windows.cell_px**2
+    whole = np.isfinite(windows.shares).all(axis=(1, 2))
+    shares = windows.shares[whole] if whole.any() else np.nan_to_num(windows.shares)
+    area = float(np.median(shares.sum(axis=(1, 2)))) * windows.cell_px**2
     return float(np.sqrt(area / covers))
 
 

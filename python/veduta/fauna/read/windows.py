@@ -11,19 +11,22 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from veduta.fauna.motion.figure import Floats
+from veduta.fauna.read.laid_on import Shown, laid_on
 from veduta.fauna.read.occupancy import Singles
 from veduta.fauna.read.silhouettes import Masks
 
 _MARGIN = 0.09
+_ALL = 0.999
+"""A cell is looked at where a frame shows so much of it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """shares: (t, h, w) how much of each cell the animal covers. middle_px: (t, 2) of the windows,
-    x and y down in the picture. cell_px: the side of a cell. faces: 1 where the animal looks to the
-    right of the picture, -1 where the windows are mirrored so that it does. pins: (t, 2) px by
-    joint, where somebody has marked it; NaN elsewhere. trust: (t,) by joint how much each mark
-    counts, where they differ in that.
+    """shares: (t, h, w) how much of each cell the animal covers, NaN where a frame that cuts it
+    shows nothing. middle_px: (t, 2) of the windows, x and y down in the picture. cell_px: the side
+    of a cell. faces: 1 where the animal looks to the right of the picture, -1 where the windows are
+    mirrored so that it does. pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere.
+    trust: (t,) by joint how much each mark counts, where they differ in that.
     """
 
     shares: Singles
@@ -50,7 +53,8 @@ class Windows:
         """(h * w,) how much each place counts: most where it is now the animal, now not. There the
         legs are, of which a body's outline would otherwise have more to say.
         """
-        mean = self.shares.mean(axis=0)
+        known = np.isfinite(self.shares)
+        mean = np.where(known, self.shares, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
         changes = 4.0 * mean * (1.0 - mean)
         return np.asarray((1.0 + (most - 1.0) * changes).reshape(-1), dtype=np.float32)
 
@@ -82,19 +86,34 @@ class Windows:
         return replace(self, shares=turned, faces=-self.faces)
 
 
-def middles_of(masks: Masks) -> Floats:
-    """(t, 2) the silhouettes' middles, px, smooth through time."""
+def middles_of(masks: Masks, shown: Shown | None = None) -> Floats:
+    """(t, 2) the silhouettes' middles, px, smooth through time.
+
+    Where a frame shows but a part of the animal its middle is that of the nearest whole silhouette,
+    laid on the part.
+    """
+    middle = _centroids(masks)
+    if shown is not None:
+        middle = laid_on(masks, middle, shown)
+    return np.asarray(gaussian_filter1d(middle, 2.0, axis=0, mode="nearest"))
+
+
+def _centroids(masks: Masks) -> Floats:
     rows = masks.sum(axis=2).astype(np.float64)
     columns = masks.sum(axis=1).astype(np.float64)
     area = np.maximum(rows.sum(axis=1), 1.0)
     y = rows @ (np.arange(rows.shape[1]) + 0.5) / area
     x = columns @ (np.arange(columns.shape[1]) + 0.5) / area
-    middle = np.stack([x, y], axis=1)
-    return np.asarray(gaussian_filter1d(middle, 2.0, axis=0, mode="nearest"))
+    return np.stack([x, y], axis=1)
 
 
-def windows_of(masks: Masks, cells: int, middle_px: Floats | None = None) -> Windows:
-    """Windows about the silhouettes, so many cells along the longer side of the largest one."""
+def windows_of(
+    masks: Masks, cells: int, middle_px: Floats | None = None, shown: Shown | None = None
+) -> Windows:
+    """Windows about the silhouettes, so many cells along the longer side of the largest one.
+
+    shown: of each frame (h, w) what it shows where the border cuts the animal; None: all of it.
+    """
     middle = middles_of(masks) if middle_px is None else middle_px
     left, right, up, down = _reach(masks, middle)
     # A figure must feel that it reaches out of the silhouettes: what lies beyond is not looked at.
@@ -114,6 +133,14 @@ def windows_of(masks: Masks, cells: int, middle_px: Floats | None = None) -> Win
             flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
         )  # fmt: skip
         shares[row] = cv2.resize(large, (width, height), interpolation=cv2.INTER_AREA)
+        inside = None if shown is None else shown[row]
+        if inside is not None:
+            seen = cv2.warpAffine(
+                inside.astype(np.float32), matrix, (width * fine, height * fine),
+                flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+            )  # fmt: skip
+            share = cv2.resize(seen, (width, height), interpolation=cv2.INTER_AREA)
+            shares[row][np.asarray(share) < _ALL] = np.nan
     return Windows(shares, middle, cell, 1.0)
 
 
@@ -128,6 +155,13 @@ def _reach(masks: Masks, middle: Floats) -> tuple[float, float, float, float]:
     )  # fmt: skip
 
 
+def _apart(first: NDArray[np.float32], second: NDArray[np.float32]) -> float:
+    """The mean difference where both are known."""
+    off = np.abs(first - second)
+    known = np.isfinite(off)
+    return float(off[known].mean()) if known.any() else 1.0
+
+
 def repeat_of(windows: Windows, least: int = 4, *, top: bool = False) -> tuple[float, float] | None:
     """After how many frames silhouettes look the same again, and how well (0..1); None: never.
 
@@ -139,7 +173,7 @@ def repeat_of(windows: Windows, least: int = 4, *, top: bool = False) -> tuple[f
     legs: NDArray[np.float32] = windows.shares[:, from_row:].reshape(len(windows.shares), -1)
     count = len(legs)
     lags = np.arange(1, max(2, int(count * 0.75)))
-    apart = np.array([float(np.abs(legs[lag:] - legs[:-lag]).mean()) for lag in lags])
+    apart = np.array([_apart(legs[lag:], legs[:-lag]) for lag in lags])
     usual = float(np.median(apart))
     lows = [
         k for k in range(least - 1, len(lags) - 1)
