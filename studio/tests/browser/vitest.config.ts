@@ -4,8 +4,8 @@ export default defineConfig({
   test: {
     include: ["tests/browser/**/*.test.ts"],
     environment: "node",
-    // One browser at a time: drawing without a graphics card takes all cores.
-    fileParallelism: false,
+    // Two browsers: most of a test's time is waiting, for frames and for what it times.
+    maxWorkers: 2,
     testTimeout: 90_000,
     hookTimeout: 90_000,
   },

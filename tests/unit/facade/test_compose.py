@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import pytest
 from drawn_facade import analysed, draw_facade, rectified_of
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -104,6 +104,7 @@ def test_extents_paint_what_was_found(
 long_edges, ratios = st.integers(721, 2000), st.floats(0.5, 1.0)
 
 
+@settings(max_examples=20)
 @given(long_edges, ratios, st.booleans())
 def test_the_edges_of_the_picture_are_reached(long: int, ratio: float, upright: bool) -> None:
     """The analysis image has whole pixels: its last is not the last but one of the photo's."""

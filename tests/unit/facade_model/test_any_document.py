@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from closed_shells import assert_closed
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from sample_document import element, sample_document, sample_photo
 
@@ -31,6 +31,7 @@ def model_sizes(draw: st.DrawFn) -> ModelSizes:
     )
 
 
+@settings(max_examples=30)
 @given(
     items=st.lists(elements, max_size=24),
     roof_m=st.sampled_from([-1.0, 0.0, 0.4, 0.6, 3.6, 9.0]),

@@ -9,7 +9,7 @@ from math import cos, radians, sin
 import numpy as np
 import pytest
 from closed_shells import assert_closed, shells
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from sample_document import FACADE_M, element, sample_document, sample_photo
 from test_any_document import PHOTO, elements, model_sizes
@@ -62,6 +62,7 @@ def box(part: Part, name: str) -> tuple[float, float, float, float]:
     return x0, z0, x1, z1
 
 
+@settings(max_examples=30)
 @given(
     items=st.lists(elements, max_size=24),
     roof_m=st.sampled_from([-1.0, 0.0, 0.6, 3.6, 9.0]),
