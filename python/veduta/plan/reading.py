@@ -43,6 +43,7 @@ from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.openings.ticks import panels_beyond, tick_pieces
 from veduta.plan.remarks import PLOT_NOTE
+from veduta.plan.rooms.apart import without_apart
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
@@ -159,7 +160,7 @@ def _likeliest_way(sheet: Sheeted) -> Drawn:
         closed = _read(sheet, tried[likely], thin=True)
         # Within a fence the walls may have been read in another way than that.
         drawn = _better(drawn, closed, labels) if PLOT_NOTE in drawn.notes else closed
-    return drawn
+    return without_apart(drawn, labels)
 
 
 def _within_ring(sheet: Sheeted, way: Way) -> Drawn:
@@ -200,7 +201,8 @@ def likeliest(
             share = _with_own_rooms(drawn, labels)
             if share > most:
                 best, most, likely = drawn, share, place
-        large = best is not None and len(best.walls) > MOST_WALLS
+        # Noise without a room that is named is no reading yet.
+        large = best is not None and most > 0.0 and len(best.walls) > MOST_WALLS
         if share >= APART or len(labels) < FEWEST_LABELS or large:
             break
     if best is None:

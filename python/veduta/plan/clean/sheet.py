@@ -10,6 +10,7 @@ from veduta.plan.clean import ink as inks
 from veduta.plan.clean.denoise import denoised
 from veduta.plan.clean.fields import without_fields
 from veduta.plan.clean.focus import focused
+from veduta.plan.clean.letterhead import without_letterhead
 from veduta.plan.clean.straighten import laid_straight, skew, work_scale
 from veduta.plan.drawn import Cleaned
 from veduta.run.errors import NotFoundError
@@ -48,6 +49,10 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
             "a floor plan", f"{subject} is {width} x {height} px", "Scan it at 1000 px a side."
         )
     notes = []
+    bare = without_letterhead(pixels)
+    if bare is not pixels:
+        pixels = bare
+        notes.append("bands of one colour along edges of the sheet are left out")
     if inks.is_negative(pixels):
         pixels = 255 - pixels
         notes.append("light lines on a dark sheet: colours inverted")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,6 +12,9 @@ from numpy.typing import NDArray
 from veduta.plan.document import Text
 from veduta.plan.names.vocabulary import meanings, names_open_air
 from veduta.plan.scale.quantities import read_quantities
+
+WINDOWS = 4
+"""So many sizes without a name that are all as high, beside as many names, are those of windows."""
 
 LINE_GAP = 1.2
 """Heights of text between two lines of one label."""
@@ -30,10 +35,35 @@ def room_labels(texts: Sequence[Text], *, indoors: bool = False) -> list[NDArray
             home.append((box, text))
     kept = [
         group
-        for group in groups
+        for group in _without_windows(groups)
         if not (indoors and any(names_open_air(text.text) for _, text in group))
     ]
     return [np.asarray(np.concatenate([box for box, _ in group]).mean(axis=0)) for group in kept]
+
+
+def _without_windows(
+    groups: list[list[tuple[NDArray[np.float64], Text]]],
+) -> list[list[tuple[NDArray[np.float64], Text]]]:
+    """The labels without sizes of windows: many without a name, which are all as high.
+
+    Where most rooms have no name, such sizes are those of rooms.
+    """
+    bare = [group for group in groups if not any(meanings(text.text) for _, text in group)]
+    named = len(groups) - len(bare)
+    seconds = [_second_side(group[0][1].text) if len(group) == 1 else None for group in bare]
+    often = Counter(one for one in seconds if one is not None)
+    windows = {
+        id(group)
+        for group, second in zip(bare, seconds, strict=True)
+        if second is not None and often[second] >= WINDOWS
+    }
+    return [group for group in groups if id(group) not in windows or named < WINDOWS]
+
+
+def _second_side(text: str) -> str | None:
+    """What stands behind the sign between two sides, as it is written."""
+    parts = re.split(r"[x×X]", text.replace(" ", ""))
+    return parts[1] if len(parts) == 2 and parts[1] else None
 
 
 def _says_room(text: Text) -> bool:

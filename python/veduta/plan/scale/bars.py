@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.plan.document import Text
 from veduta.plan.scale.evidence import Hypothesis, Voter
@@ -17,6 +18,10 @@ _NUMBERS = re.compile(rf"^\W*({_NUMBER}(?:\s+{_NUMBER})*)\s*(m|ft|feet|metres|me
 _MARKED = 3  # so many numbers in proportion are no chance
 _DIGIT = 0.55  # width of a digit over the height of its line
 _LETTER_GAP = 0.15  # positions of numbers, in heights of the line
+_AROUND = 3.0  # heights of the line between numbers and their bar
+_BAR = 0.97  # of a bar that is ink
+_ENDS_PX = 3
+_LOOSE = 0.04  # of a bar's length, by which numbers may stand off its ends
 _STRAIGHT = 0.02  # of the bar's length, by which numbers may stand off their proportion
 
 
@@ -29,16 +34,55 @@ class _Number:
     unit: str
 
 
-def bar_voters(texts: list[Text]) -> list[Voter]:
-    """Evidence from rows of numbers that begin with 0 and grow in proportion to their place."""
+def bar_voters(texts: list[Text], ink: NDArray[np.bool_] | None = None) -> list[Voter]:
+    """Evidence from rows of numbers that begin with 0 and grow in proportion to their place.
+
+    A 0 that was not read is believed where a bar is drawn in the `ink` (h, w) from there on.
+    """
     numbers = [number for text in texts for number in _numbers(text)]
-    voters = []
-    for zero in numbers:
-        if zero.value == 0.0:
-            row = _row(zero, numbers)
-            if len(row) >= _MARKED:
-                voters.append(_voter(row))
-    return voters
+    rows = [_row(zero, numbers) for zero in numbers if zero.value == 0.0]
+    rows = [row for row in rows if len(row) >= _MARKED]
+    if ink is None:
+        return [_voter(row) for row in rows]
+    if not rows:
+        pairs = [_pair(one, other) for one in numbers for other in numbers]
+        rows = [row for row in pairs if row and _on_bar(row, ink) is not None][:1]
+    return [_voter(_on_bar(row, ink) or row) for row in rows]
+
+
+def _pair(first: _Number, last: _Number) -> list[_Number]:
+    """Two numbers on a line, the last with its unit, and the 0 before them; empty of others."""
+    level = abs(first.y - last.y) < 0.5 * first.height
+    if not (level and last.unit and 0.0 < first.value < last.value and first.x < last.x):
+        return []
+    step = (last.x - first.x) / (last.value - first.value)
+    zero = _Number(0.0, first.x - first.value * step, first.y, first.height, "")
+    return [zero, first, last]
+
+
+def _on_bar(row: list[_Number], ink: NDArray[np.bool_]) -> list[_Number] | None:
+    """The 0 and the last number at the ends of the bar that is drawn from one to the other.
+
+    A line that goes on beyond them is none. None without one.
+    """
+    first, last = row[0], row[-1]
+    reach = _AROUND * first.height
+    rows = slice(max(0, round(first.y - reach)), max(0, round(first.y + reach)))
+    left, right = round(first.x), round(last.x)
+    slack = max(_ENDS_PX, round(_LOOSE * (right - left)))
+    if left < 2 * slack or right + 2 * slack >= ink.shape[1] or rows.stop == 0:
+        return None
+    beside = ink[rows]
+    full = beside[:, left + slack : right - slack].mean(axis=1) > _BAR
+    bare = ~(
+        beside[:, left - 2 * slack : left - slack].any(axis=1)
+        | beside[:, right + slack : right + 2 * slack].any(axis=1)
+    )
+    if not (full & bare).any():
+        return None
+    drawn = np.flatnonzero(beside[full & bare, left - slack : right + slack].any(axis=0))
+    start, end = left - slack + int(drawn[0]), left - slack + int(drawn[-1]) + 1
+    return [replace(first, x=float(start)), replace(last, x=float(end))]
 
 
 def _numbers(text: Text) -> list[_Number]:

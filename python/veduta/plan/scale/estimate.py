@@ -26,6 +26,7 @@ from veduta.plan.scale.vote import take_vote
 from veduta.plan.scale.width_rule import width_rule_voters
 from veduta.run.errors import InputError
 
+_OF_BAR = 0.3  # of full ink; the edges of a bar's white parts are thin
 _BLUR_PX = 0.7  # how exactly faces of walls are found
 _RIVAL = 0.5  # a second group with so many of the votes is told of
 _DOUBT_SIGMA = 0.1
@@ -125,7 +126,7 @@ def find_voters(sizes: DrawnSizes) -> list[Voter]:
     return [
         *room_voters(texts, rooms, _BLUR_PX, sizes.masks),
         *line_voters(texts, sizes.ink, _BLUR_PX),
-        *bar_voters(texts),
+        *bar_voters(texts, sizes.ink > _OF_BAR),
         *ratio_voters(texts, sizes.dpi, on_paper=sizes.on_paper),
         *width_rule_voters(texts, rooms, sizes.ink),
     ]

@@ -20,6 +20,7 @@ from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.layers import walls_of_a_colour
 from veduta.plan.walls.outlined import wall_cells
 from veduta.plan.walls.pens import broader_pens
+from veduta.plan.walls.scribbled import scribbled_walls
 from veduta.plan.walls.solid import SINGLE_LINE, Thickness, stroke_length, wall_thickness
 from veduta.plan.walls.tone import toned_areas
 from veduta.run.errors import NotFoundError
@@ -138,6 +139,9 @@ def ways_of_ink(
         yield Way(ink, ink, plain, "single-line" if single else "filled")
     if layered is not None and last:
         yield layered
+    scribbled = scribbled_walls(ink, line_px)
+    if scribbled is not None:
+        yield Way(ink, scribbled[0], scribbled[1], "hatched")
 
 
 def _layered(ink: NDArray[np.bool_], lines: NDArray[np.bool_], line_px: float) -> Way | None:
