@@ -7,6 +7,7 @@ once more by what lies behind them, let the axes meet, and find rooms.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -147,7 +148,7 @@ def _likeliest_way(sheet: Sheeted) -> Drawn:
     labels = room_labels(sheet.texts, indoors=True)
     tried: list[Way] = []
 
-    def readings() -> Iterator[Callable[[], Drawn]]:
+    def readings() -> Iterator[Callable[[float], Drawn]]:
         for way in ways_drawn(sheet.cleaned, sheet.texts, sheet.flights):
             tried.append(way)
             yield partial(_read, sheet, way)
@@ -163,9 +164,9 @@ def _likeliest_way(sheet: Sheeted) -> Drawn:
     return without_apart(drawn, labels)
 
 
-def _within_ring(sheet: Sheeted, way: Way) -> Drawn:
+def _within_ring(sheet: Sheeted, way: Way, most_pieces: float) -> Drawn:
     """The house within a ring of walls that are drawn otherwise; NotFoundError without a ring."""
-    found = find_walls(sheet.cleaned, way)
+    found = _found(sheet, way, most_pieces)
     ring = [found.pieces[one] for one in sorted(ring_pieces(found.pieces, found.thin_px))]
     if not ring:
         raise NotFoundError("walls", "no wall stands around the plot", "Give a floor plan.")
@@ -183,27 +184,30 @@ def _noted(drawn: Drawn) -> Drawn:
 
 
 def likeliest(
-    readings: Iterable[Callable[[], Drawn]], labels: Sequence[NDArray[np.float64]]
+    readings: Iterable[Callable[[float], Drawn]], labels: Sequence[NDArray[np.float64]]
 ) -> tuple[int, Drawn]:
     """The first reading in which most labels have a room each, or the best of all; with its place.
 
     `labels` are middles (2,) px. Where there are fewer than FEWEST_LABELS, the first reading
-    stands. Raises NotFoundError as the first does, if none is one.
+    stands. Each is asked with the number of pieces of wall from which on it is noise: any at first,
+    and fewer once noise was read. Raises NotFoundError as the first does, if none is one.
     """
     best: Drawn | None = None
-    most, fault, likely = -1.0, None, 0
+    most, fault, likely, most_pieces = -1.0, None, 0, math.inf
     for place, reading in enumerate(readings):
         try:
-            drawn = reading()
+            drawn = reading(most_pieces)
         except NotFoundError as error:
             fault, share = fault or error, -1.0
         else:
             share = _with_own_rooms(drawn, labels)
+            if len(drawn.walls) > MOST_WALLS:
+                most_pieces = MOST_WALLS
             if share > most:
                 best, most, likely = drawn, share, place
-        # Noise without a room that is named is no reading yet.
-        large = best is not None and most > 0.0 and len(best.walls) > MOST_WALLS
-        if share >= APART or len(labels) < FEWEST_LABELS or large:
+        large = best is not None and len(best.walls) > MOST_WALLS
+        # Noise without a room that is named is no reading yet, but more of it would be none either.
+        if share >= APART or len(labels) < FEWEST_LABELS or (large and most > 0.0):
             break
     if best is None:
         raise fault or NotFoundError(
@@ -220,9 +224,21 @@ def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> floa
     return named / max(1, len(points))
 
 
-def _read(sheeted: Sheeted, way: Way, *, thin: bool = False) -> Drawn:
+def _found(sheet: Sheeted, way: Way, most_pieces: float) -> Found:
+    """The walls of a sheet; NotFoundError where they are more pieces than that."""
+    found = find_walls(sheet.cleaned, way)
+    if len(found.pieces) > most_pieces:
+        raise NotFoundError(
+            "walls", f"{len(found.pieces)} strokes would be walls", "Give a floor plan."
+        )
+    return found
+
+
+def _read(
+    sheeted: Sheeted, way: Way, most_pieces: float = math.inf, *, thin: bool = False
+) -> Drawn:
     """One reading; thin: rooms with a name are closed along any lines around them."""
-    found = find_walls(sheeted.cleaned, way)
+    found = _found(sheeted, way, most_pieces)
     fence = [found.pieces[one] for one in sorted(fence_pieces(found.pieces, found.thin_px))]
     if not fence:
         return _read_found(sheeted, found, way, thin)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from veduta.plan.document import Text
 from veduta.plan.drawn import Cleaned, Drawn, DrawnRoom
-from veduta.plan.reading import likeliest, read_storey
+from veduta.plan.reading import MOST_WALLS, likeliest, read_storey
 from veduta.run.errors import NotFoundError
 from veduta.synthetic.plans.degrade import DEGRADATIONS
 from veduta.synthetic.plans.sets import sheets_of
@@ -56,31 +57,45 @@ def drawn(*widths: float) -> Drawn:
     return Drawn(cleaned, (), (), (), tuple(rooms))
 
 
-def none() -> Drawn:
+def none(_: float = 0.0) -> Drawn:
     raise NotFoundError("walls", "there are none", "Give some.")
+
+
+def says(*found: Drawn) -> list[Callable[[float], Drawn]]:
+    """Readings with these results."""
+    return [lambda _, one=one: one for one in found]
 
 
 def test_the_first_reading_stands_where_names_have_rooms() -> None:
     first, second = drawn(10, 10, 20), drawn(10, 10, 10, 10)
-    assert likeliest([lambda: first, lambda: second], LABELS)[1] is first
+    assert likeliest(says(first, second), LABELS)[1] is first
 
 
 def test_the_best_reading_is_taken_where_they_have_none() -> None:
     one, two, three = drawn(40), drawn(20, 20), drawn(30, 10)
-    assert likeliest([lambda: one, none, lambda: two, lambda: three], LABELS)[1] is two
-    assert likeliest([none, lambda: one], LABELS)[1] is one
+    assert likeliest([*says(one), none, *says(two, three)], LABELS)[1] is two
+    assert likeliest([none, *says(one)], LABELS)[1] is one
 
 
 def test_noise_is_read_once() -> None:
     one, two = drawn(40), drawn(10, 10, 10, 10)
     noise = replace(one, walls=(None,) * 1000)  # type: ignore[arg-type]
-    assert likeliest([lambda: noise, lambda: two], LABELS)[1] is noise
+    assert likeliest(says(noise, two), LABELS)[1] is noise
+    # Where no name has a room in it, others are asked for, but for no more noise.
+    asked = []
+
+    def other(most_pieces: float) -> Drawn:
+        asked.append(most_pieces)
+        return two
+
+    assert likeliest([*says(replace(noise, rooms=())), other], LABELS)[1] is two
+    assert asked == [MOST_WALLS]
 
 
 def test_few_names_say_nothing() -> None:
     one, two = drawn(40), drawn(20, 20)
-    assert likeliest([lambda: one, lambda: two], LABELS[:3])[1] is one
+    assert likeliest(says(one, two), LABELS[:3])[1] is one
     with pytest.raises(NotFoundError, match="there are none"):
-        likeliest([none, lambda: one], LABELS[:3])
+        likeliest([none, *says(one)], LABELS[:3])
     with pytest.raises(NotFoundError, match="there are none"):
         likeliest([none, none], LABELS)
