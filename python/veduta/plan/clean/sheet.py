@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
+from veduta.plan.clean.coloured import with_black_walls
 from veduta.plan.clean.denoise import denoised
 from veduta.plan.clean.fields import without_fields
 from veduta.plan.clean.focus import focused
@@ -66,7 +67,10 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
         notes.append("out of focus: its blur was taken back")
     rotation = skew(pixels)
     straight, clean_from_scan = laid_straight(pixels, rotation, work_scale(width, height))
-    dark = inks.darkness(without_fields(straight))
+    redrawn = with_black_walls(straight)
+    if redrawn is not None:
+        notes.append("walls are what is light between floors in flat colours")
+    dark = inks.darkness(without_fields(straight) if redrawn is None else redrawn)
     ink = _without_border(inks.ink_of(dark))
     ink = inks.without_shades(ink, inks.marks(ink))
     mask = inks.marks(ink)

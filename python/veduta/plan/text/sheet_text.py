@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.plan.clean.coloured import on_white
 from veduta.plan.clean.denoise import denoised
 from veduta.plan.clean.focus import focused
 from veduta.plan.document import Sheet, Text
@@ -37,7 +38,7 @@ class SheetText:
 def read_sheet(scan: NDArray[np.uint8]) -> SheetText:
     """Read a scan (h, w, 3) or (h, w) that may lie on its side, on its head, or be mirrored."""
     scan = denoised(in_colour(scan))
-    sharp = focused(scan, LEFT_PX)
+    sharp = on_white(focused(scan, LEFT_PX))
     overview = find_overview(sharp)
     position = find_position(sharp, overview)
     pixels = set_right(scan, position)
