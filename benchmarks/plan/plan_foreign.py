@@ -32,7 +32,7 @@ NOTES = (
     " 31005 0.41 (mean of sheets), 0.26, 0.44, 1 of 6; on 31000 to 31002 coloured 0, 0.07, 0.02, 0"
     " of 3, print 0.56, 0.46, 0.29, 3 of 3, permit 0.77, 0.64, 0.64, 3 of 3, listing 1.00, 0.75,"
     " 0.41, 1 of 3, squared 0.57, 0.18, 0.13, 1 of 3 (one not read).",
-    "listing, squared and print were mended on seeds 100 to 107.",
+    "listing, squared and print were mended on seeds 100 to 107, coloured on 200 to 205.",
 )
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from sample_plan import sample_plan
+from sample_plan import sample_plan, sample_storey, wall, window
 
-from veduta.plan.document import PlanDocument, Text
+from veduta.plan.document import Junction, PlanDocument, Text
 from veduta.plan.flats import flat_named, flat_options, with_flat
 from veduta.plan.house.build import build_house
 from veduta.plan.options import HouseOptions
@@ -54,3 +54,45 @@ def test_the_option_takes_roof_and_garden_away() -> None:
 def test_a_house_stays_one() -> None:
     options = HouseOptions()
     assert flat_options(sample_plan(), options) is options
+
+
+NEXT_DOOR = [("g", (8.0, -4.0)), ("h", (12.0, -4.0)), ("i", (2.0, 2.0)), ("j", (3.5, 2.0))]
+
+
+def with_next_door(*texts: Text) -> PlanDocument:
+    """The sample with walls of neighbours that hang on it, and a screen in the living room."""
+    plain = sample_storey()
+    ends = [Junction(id=name, at_m=at, type="end") for name, at in NEXT_DOOR]
+    corner = next(one for one in plain.junctions if one.id == "c")
+    junctions = [one for one in plain.junctions if one is not corner]
+    walls = [wall("next-1", "c", "g"), wall("next-2", "g", "h"), wall("screen", "i", "j")]
+    return sample_plan(
+        sample_storey(
+            junctions=[*junctions, corner.model_copy(update={"type": "T"}), *ends],
+            walls=[*plain.walls, *walls],
+            openings=[*plain.openings, window("theirs", "next-2", 1.0, 1.5)],
+            texts=list(texts),
+        )
+    )
+
+
+def test_walls_of_neighbours_are_left_out_of_a_flat() -> None:
+    (storey,) = with_flat(with_next_door(), HouseOptions(flat=True), by_text=True).storeys
+    (plain,) = sample_plan().storeys
+    assert {one.id for one in storey.walls} == {*(one.id for one in plain.walls), "screen"}
+    assert {one.id for one in storey.openings} == {one.id for one in plain.openings}
+    types = {one.id: one.type for one in storey.junctions}
+    assert types["c"] == "L"
+    assert "g" not in types
+    assert "8.0 m of wall that border no room" in storey.doubts[0]
+    assert build_house(PlanDocument(storeys=[storey], flat=True), HouseOptions()).part
+
+
+def test_walls_of_a_house_and_near_the_name_of_a_lost_room_stay() -> None:
+    house = with_flat(with_next_door(), HouseOptions(), by_text=True)
+    assert house == with_next_door()
+    lost = Text(text="Bedroom", box_px=[(980, 700), (1060, 700), (1060, 720), (980, 720)],
+                score=0.9)  # fmt: skip
+    (storey,) = with_flat(with_next_door(lost), HouseOptions(flat=True), by_text=True).storeys
+    assert len(storey.walls) == 10
+    assert storey.doubts == []
