@@ -143,7 +143,7 @@ def run_block(job: Job) -> dict[str, Any]:
     for number, node in enumerate(squares(middles, NODE_LOTS)):
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)
     reported = table(result.reported)
-    result.notes.update(dict.fromkeys(by.library.told_missing(), 1))
+    result.notes.update(dict.fromkeys(by.library.notes(), 1))
     result.missing = by.library.computed_missing(by.rules)[:MOST_MISSING]
     if beyond := len(by.library.pictures.keys() - job.textures.keys()):
         result.notes[f"{beyond} pictures of assets are shown by their mean colours"] = 1

@@ -98,7 +98,7 @@ def test_an_asset_shows_its_picture(tmp_path: Path, kind: str) -> None:
     assert seen_in_part(part) == QUARTERS
     ending = "quad.glb#0" if kind == "glb" else "four.png"
     assert list(library.pictures) == [f"asset:{ending}"]
-    assert library.told_missing() == []
+    assert library.notes() == []
 
 
 @pytest.mark.parametrize("name", MADE)
@@ -155,13 +155,13 @@ def test_a_picture_that_is_not_there_leaves_the_colour(tmp_path: Path) -> None:
     (tmp_path / "quad.mtl").write_text("newmtl skin\nKd 0.2 0.4 0.6\nmap_Kd gone.png\n")
     part, library, _ = built(tmp_path, rules_of("obj"))
     assert [one.colour for one in part.materials if one.name == "skin"] == [(0.2, 0.4, 0.6)]
-    (told,) = library.told_missing()
+    (told,) = library.notes()
     assert "quad.obj" in told
     assert "gone.png" in told
     (path.parent / "gone.png").write_bytes(b"no picture")
     part, library, _ = built(tmp_path / ".", rules_of("obj", colour='color("#123456")'))
     assert [one.colour for one in part.materials if one.name == "skin"] == [(0.2, 0.4, 0.6)]
-    assert "gone.png" in library.told_missing()[0]
+    assert "gone.png" in library.notes()[0]
 
 
 def test_faces_without_places_leave_the_colour(tmp_path: Path) -> None:
@@ -169,7 +169,7 @@ def test_faces_without_places_leave_the_colour(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("f 1/1 2/2 3/3 4/4", "f 1 2 3 4"))
     part, library, _ = built(tmp_path, rules_of("obj"))
     assert all(one.texture is None for one in part.materials)
-    assert "no places on its picture" in library.told_missing()[0]
+    assert "no places on its picture" in library.notes()[0]
 
 
 def test_names_do_not_depend_on_where_the_project_lies(tmp_path: Path) -> None:

@@ -142,7 +142,7 @@ def test_a_box_stands_for_an_asset_that_is_nowhere() -> None:
     both = [lot("good"), lot("bad", pane="porthole")]
     lots = by.together(both, FULL)
     assert [by.fault(lots, row, both[row]) for row in (0, 1)] == [None, None]
-    (told,) = by.library.told_missing()
+    (told,) = by.library.missing.values()
     assert "builtin/window-porthole" in told
     assert "is no asset that Veduta brings along" in told
     counts = [len(lots.columns(row).instance_feature) for row in (0, 1)]

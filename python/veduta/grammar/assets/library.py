@@ -140,12 +140,9 @@ class Library:
         written = set(rules.asset_names[0])
         return [why for name, why in sorted(self.missing.items()) if name not in written]
 
-    def told_missing(self) -> list[str]:
-        """What to say of the assets that are missing, and of what is missing of the others."""
-        boxes = [f"{why} A box stands for it." for why in self.missing.values()]
-        return boxes + [
-            f"{name}: {note}" for name, asset in self._known.items() for note in asset.notes
-        ]
+    def notes(self) -> list[str]:
+        """What is missing of the assets that are there, such as their pictures."""
+        return [f"{name}: {note}" for name, asset in self._known.items() for note in asset.notes]
 
     def faults(self, rules: _core.GrammarRules) -> list[str]:
         """What is wrong with the assets whose names stand in the rules."""
