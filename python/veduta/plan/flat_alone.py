@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from shapely import STRtree
 from shapely.geometry import LineString, Point, Polygon
 
-from veduta.plan.document import Junction, JunctionType, Storey, Text, Wall
+from veduta.plan.document import Junction, JunctionType, PlanDocument, Storey, Text, Wall
 from veduta.plan.names.vocabulary import meanings
 
 BESIDE_M = 0.15
@@ -23,6 +23,14 @@ NAMED_M = 3.0
 
 STRAIGHT = 0.996
 """Two walls are straight on from this cosine of their bend on (5 degrees)."""
+
+
+def left_alone(document: PlanDocument, before: PlanDocument) -> PlanDocument:
+    """A document that has become a flat without walls of neighbours; others as they are."""
+    if before.flat or not document.flat:
+        return document
+    storeys = [without_neighbours(one) for one in document.storeys]
+    return document.model_copy(update={"storeys": storeys})
 
 
 def without_neighbours(storey: Storey) -> Storey:

@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterable
 
 from veduta.plan.document import PlanDocument, Text
-from veduta.plan.flat_alone import without_neighbours
 from veduta.plan.options import HouseOptions
 
 SURE = 0.8
@@ -37,23 +36,15 @@ def with_flat(document: PlanDocument, options: HouseOptions, *, by_text: bool) -
     """The document as one of a flat where the option says so, or (by_text) its only sheet.
 
     Of several storeys only the option does: a house may hold a flat. What a sheet says is a doubt.
-    Walls of neighbours are left out of what was none before.
     """
-    if document.flat:
-        return document
-    if options.flat:
-        return _alone(document)
+    if document.flat or options.flat:
+        return document.model_copy(update={"flat": True})
     (first, *more) = document.storeys
     said = flat_named(first.texts) if by_text and not more else None
     if said is None:
         return document
     doubt = f"taken for a flat, without roof and garden of its own, as {said!r} is on the sheet."
-    return _alone(with_doubt(document, doubt))
-
-
-def _alone(document: PlanDocument) -> PlanDocument:
-    storeys = [without_neighbours(one) for one in document.storeys]
-    return document.model_copy(update={"flat": True, "storeys": storeys})
+    return with_doubt(document, doubt).model_copy(update={"flat": True})
 
 
 def with_doubt(document: PlanDocument, doubt: str) -> PlanDocument:

@@ -6,6 +6,7 @@ import pytest
 from sample_plan import sample_plan, sample_storey, wall, window
 
 from veduta.plan.document import Junction, PlanDocument, Text
+from veduta.plan.flat_alone import left_alone
 from veduta.plan.flats import flat_named, flat_options, with_flat
 from veduta.plan.house.build import build_house
 from veduta.plan.options import HouseOptions
@@ -76,8 +77,13 @@ def with_next_door(*texts: Text) -> PlanDocument:
     )
 
 
+def alone(document: PlanDocument) -> PlanDocument:
+    """The document as one of a flat."""
+    return left_alone(with_flat(document, HouseOptions(flat=True), by_text=True), document)
+
+
 def test_walls_of_neighbours_are_left_out_of_a_flat() -> None:
-    (storey,) = with_flat(with_next_door(), HouseOptions(flat=True), by_text=True).storeys
+    (storey,) = alone(with_next_door()).storeys
     (plain,) = sample_plan().storeys
     assert {one.id for one in storey.walls} == {*(one.id for one in plain.walls), "screen"}
     assert {one.id for one in storey.openings} == {one.id for one in plain.openings}
@@ -89,10 +95,10 @@ def test_walls_of_neighbours_are_left_out_of_a_flat() -> None:
 
 
 def test_walls_of_a_house_and_near_the_name_of_a_lost_room_stay() -> None:
-    house = with_flat(with_next_door(), HouseOptions(), by_text=True)
-    assert house == with_next_door()
+    house = with_next_door()
+    assert left_alone(with_flat(house, HouseOptions(), by_text=True), house) is house
     lost = Text(text="Bedroom", box_px=[(980, 700), (1060, 700), (1060, 720), (980, 720)],
                 score=0.9)  # fmt: skip
-    (storey,) = with_flat(with_next_door(lost), HouseOptions(flat=True), by_text=True).storeys
+    (storey,) = alone(with_next_door(lost)).storeys
     assert len(storey.walls) == 10
     assert storey.doubts == []
