@@ -39,7 +39,7 @@ def main() -> None:
     parser.add_argument("--most", type=int, help="look at no more than so many photos")
     parser.add_argument("--draft", action="store_true", help="keep nothing")
     call = parser.parse_args()
-    photos = {f"{name} {one.image.stem}": one for name in SETS for one in _photos(name)}
+    photos = {f"{name} {one.image.stem}": one for name in SETS for one in _photos(name, True)}
 
     def counted(key: str) -> Counted:
         one = photos[key]

@@ -22,6 +22,7 @@ from veduta.facade.house_folders import HOUSES_DOUBTED
 from veduta.facade.houses import HouseParameters, find_party_walls, house_spans, storey_of
 from veduta.facade.margins import width_doubt, without_margins
 from veduta.facade.options import FacadeOptions, ScaleOptions
+from veduta.facade.passages import NOT_A_PASSAGE, with_passages
 from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.railing_boxes import on_railings
 from veduta.facade.rectify import Rectified
@@ -70,6 +71,12 @@ class _Front:
     def shop(self) -> Float:
         """(h, w) the chance of shop, at the same size."""
         return self.seen.chance_at((self.evidence.width, self.evidence.height), "shop")
+
+    @cached_property
+    def no_passage(self) -> Float:
+        """(h, w) the chance of what is dark in places and no way through, at the same size."""
+        size = self.evidence.width, self.evidence.height
+        return self.seen.chance_at(size, *NOT_A_PASSAGE)
 
     @cached_property
     def hidden(self) -> Float:
@@ -270,6 +277,7 @@ def _read(
         hidden = sum(box.is_inferred for box in boxes)
         step.counts["hidden"] = hidden
         step.counts["arched"] = sum(bool(box.outline) for box in boxes)
+        step.counts["passages"] = sum(box.is_passage for box in boxes)
         for kind in front.seen.kinds:
             step.counts[kind] = sum(box.kind == kind for box in boxes)
     with timed_step(steps, "document"):
@@ -304,6 +312,9 @@ def _openings(
     elements = with_panes_of_shops(elements, boundaries, front.shop[part])
     columns = columns_of(elements)
     boxes = boxes_of(elements, boundaries, columns)
+    if front.glass is None:
+        other = front.no_passage[part]
+        boxes = with_passages(boxes, inner.lab[..., 0], front.wall[part], other, boundaries[-1])
     panes = [box for box in boxes if front.is_pane(box, sides.left)]
     others = [box for box in boxes if not front.is_pane(box, sides.left)]
     boxes = [*with_heads(others, inner.lab), *panes]
@@ -316,6 +327,9 @@ def _notes(front: _Front, document: FacadeDocument, hidden: int) -> list[str]:
     metres_per_px = document.scale.metres_per_px / front.evidence.px_per_rectified
     notes = [*document.notes, *hidden_notes(front.seen, FrontParameters())]
     notes += filter(None, [glass_note(front.glass, metres_per_px), width_doubt(document)])
+    through = sum(e.passage for e in document.elements)
+    if through:
+        notes.append(f"passages: {through} on the ground floor; how deep they are is invented")
     if hidden:
         notes.append(f"windows: {hidden} are hidden, and taken to be as those beside them")
     return notes

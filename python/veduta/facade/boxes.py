@@ -15,7 +15,7 @@ class Box:
     """A rectangle in analysis pixels, with what says that it is there (0..1).
 
     outline: its shape where that is no rectangle, corners in order. is_inferred: nothing of it is
-    seen, but others say that it is there.
+    seen, but others say that it is there. is_passage: of a door, that it leads through the house.
     """
 
     kind: str
@@ -28,6 +28,7 @@ class Box:
     score: float
     outline: tuple[tuple[float, float], ...] = ()
     is_inferred: bool = False
+    is_passage: bool = False
 
     def part(self, top: int = 0) -> tuple[slice, slice]:
         """Rows and columns of the box in an image whose first row is `top`."""

@@ -154,6 +154,7 @@ def _element(box: Box, k: _Enlargement, facade: FacadeBox, m: float) -> Element:
             "floor": box.floor,
             "column": box.column,
             "provenance": "measured" if is_measured else "inferred",
+            "passage": box.is_passage,
         }
     )
 

@@ -11,6 +11,9 @@ from veduta.facade.plan import DEEPEST_SHARE, Plan
 from veduta.facade.rule_head import DEEP_M, SHALLOW_M, WIDE_M
 
 MEASURED = 'set(depthFrom, "measured") '
+INVENTED = 'set(depthFrom, "invented") '
+# How far one looks into a passage (m): to the gate or the dark.
+PASSAGE_M = 3.0
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,9 @@ def depth_of_opening(opening: Opening, plan: Plan, usual: str, share: float) -> 
     usual: in words; share: of the setback. What is set into an opening has none of its own.
     """
     own = recess(opening.element, plan.depths) if share == 1.0 else None
+    if opening.element.passage and share == 1.0 and (own is None or not own.is_measured):
+        deep = min(PASSAGE_M, DEEPEST_SHARE * plan.depth_m)
+        return Depth(metres(deep), deep, INVENTED)
     if own is None or (not own.is_measured and opening.element.class_ == "window"):
         return Depth(usual, share * plan.setback_m)
     deep = min(own.m, DEEPEST_SHARE * plan.depth_m)

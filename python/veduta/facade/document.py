@@ -158,6 +158,12 @@ class Element(_Record):
         description="before the wall's surface above 0, behind it below, as a depth map has it",
     )
 
+    passage: bool = Field(
+        default=False,
+        exclude_if=lambda passage: not passage,
+        description="of a door: a way through the house, and no leaf",
+    )
+
     @property
     def is_doubtful(self) -> bool:
         """Whether the photo speaks rather against it. What a person adds is not in doubt."""

@@ -196,7 +196,7 @@ class _Writer:
             is_column = share == 1.0 and own.is_usual
             column = f'Column({{}}, {{}}, {{}}, "{name}", "{said}")' if is_column else ""
             return Cell(place, call, column)
-        if kind == "door" and not cuts:
+        if kind == "door" and not cuts and not opening.element.passage:
             self.parts |= {"library_door"}
             return Cell(place, f'{own.before}Door("{name}", "{said}", {own.words})')
         self.parts |= {"opening"}

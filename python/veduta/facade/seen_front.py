@@ -41,8 +41,11 @@ class FrontParameters:
     which on sides that cut them off are not believed. `street`: the share of what is not hidden
     that is ground, from which a row is the street's. `deep`: the least share of the picture's rows
     of a street that does not reach its lower border; `lids`, `lids_share`: so many of the openings
-    at most, and as a share, lie below where it begins. `hides`: the share of the front from which
-    on it is told what stands before it.
+    at most, and as a share, lie below where it begins: set by hand on one photo whose pavement has
+    a lid. On 60 photos of `facades/street-cc0-boxes` that the eyes were trained on none of the
+    three decides anything (all between 0.01 and 1, 0 and 4, 0.1 and 0.4 are alike, and no true
+    opening is lost), for their streets reach the lower border. `hides`: the share of the front from
+    which on it is told what stands before it.
     """
 
     openings: int = 2

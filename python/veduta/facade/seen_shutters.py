@@ -20,13 +20,15 @@ Rows = tuple[float, float, float, float]
 class ShutterParameters:
     """When what the eyes call blind is a shutter of a window.
 
-    own: how far one goes on beside a window, and from which chance on. filled: the least share of
-    a row (or a column) of a window that is under blinds where a blind (or a leaf) covers it.
-    whole: the share of a window from which on all of it is closed. least: the least share of its
-    area that counts. narrow: the least width of an open leaf, in widths of its window.
+    own: how far one goes on beside a window, and from which chance on: 0.2 was best of eight on
+    32 pictures of CMP that the eyes were trained on (F1 0.785; 0.766 with 0.3, 0.756 with 0.1).
+    filled: the least share of a row (or a column) of a window that is under blinds where a blind
+    (or a leaf) covers it. whole: the share of a window from which on all of it is closed. least:
+    the least share of its area that counts. narrow: the least width of an open leaf, in widths of
+    its window.
     """
 
-    own: CasementParameters = field(default_factory=CasementParameters)
+    own: CasementParameters = field(default_factory=lambda: CasementParameters(chance=0.2))
     filled: float = 0.5
     whole: float = 0.8
     least: float = 0.12

@@ -14,7 +14,7 @@ from veduta.facade.options import ModelSizes
 from veduta.facade.side_wall import side_of
 from veduta.place.instances import placed
 from veduta.place.part import Part
-from veduta.place.semantics import SemanticClass
+from veduta.place.semantics import Provenance, SemanticClass
 
 
 def _document() -> FacadeDocument:
@@ -112,6 +112,25 @@ def test_shutters_lie_beside_their_window_or_in_it(part: Part) -> None:
     assert high["shutter 1"] == pytest.approx([4.0, -0.02, 8.6], abs=0.01)
     assert low["shutter 2"] == pytest.approx([4.0, 0.135, 7.75], abs=0.02)
     assert high["shutter 2"] == pytest.approx([5.2, 0.18, 8.6], abs=0.02)
+
+
+def test_a_passage_is_deep_and_has_no_leaf() -> None:
+    """Three metres, which are invented; the house door beside it has its leaf."""
+    document = _document()
+    door = next(e for e in document.elements if e.class_ == "door" and e.x_m == 9.2)
+    passage = door.model_copy(update={"passage": True})
+    elements = [passage if e is door else e for e in document.elements]
+    changed = document.model_copy(update={"elements": elements})
+    part = build_model(changed, sample_photo(document), "house").part
+    assert_closed(part)
+    names = part.features.name
+    assert "leaf of door 2" not in names
+    row = names.index("reveal of door 2")
+    triangles = part.triangles
+    own = part.polygon_feature[triangles.polygon] == row
+    corners = part.positions_m[triangles.indices[own]].reshape(-1, 3)
+    assert corners[:, 1].max() == pytest.approx(3.0, abs=0.01)
+    assert part.features.provenance(row) is Provenance.INVENTED
 
 
 def test_the_photo_on_plain_boxes_has_none_of_it() -> None:
