@@ -26,6 +26,9 @@ from veduta.fauna.read.footage import Footage, read_footage, read_masks
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
 from veduta.fauna.read.overlap import overlap
 from veduta.fauna.read.silhouettes import SilhouetteLooks, Silhouettes, silhouettes_of
+from veduta.fauna.read.starts import scale_of
+from veduta.fauna.read.ways import WayLooks, stretches_of
+from veduta.fauna.read.windows import windows_of
 
 Floats = NDArray[np.float64]
 Row = dict[str, Value]
@@ -68,7 +71,12 @@ def main() -> None:
         rows += kept.rows(name, partial(measured, name, footage, found, given_marks, marked, held))
     notes = [
         f"Places within {NEAR:.0%} of the length from rump to nose; judged in labelled frames that"
-        " the fit was not given. Nothing was tuned with the dog.",
+        " the fit was not given. That length is of the plan at rest that covers as much as the"
+        f" silhouettes do in the median frame ({length_of(found.masks):.0f} px): no fit has a say"
+        " in it. Up to 27 November 2026 it was the fitted one. Nothing was tuned with the dog.",
+        "The dog turns towards the camera and goes back: from silhouettes alone the frames between"
+        " are left out, and labelled places in them are not judged. 74 places are visible in the"
+        " frames that were held back; what is judged of a figure are those that it has.",
     ]
     keep_or_print("fauna-marked", rows, notes, not given.no_keep)
 
@@ -77,7 +85,12 @@ def measured(
     name: str, footage: Footage, found: Silhouettes, marks: CarriedMarks,
     marked: dict[str, Floats], held: NDArray[np.int64],
 ) -> list[Row]:  # fmt: skip
-    """The rows of one fit."""
+    """The rows of one fit; without marks the frames in which the dog turns round are left out."""
+    everything = found.masks
+    parted = stretches_of(found, footage.frames[found.rows], WayLooks(), marked=bool(marks.px))
+    ways = parted.right
+    if ways is not None:
+        found, ways = found.of(np.flatnonzero(~parted.turning)), ways[~parted.turning]
     pins, trust = (
         {joint: values[found.rows] for joint, values in one.items()}
         for one in (marks.px, marks.trust)
@@ -94,6 +107,7 @@ def measured(
         pictures,
         trust,
         found.shown(),
+        ways,
     )
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
     deep = seen.fitted.deep * seen.fitted.px_per_length
@@ -102,9 +116,9 @@ def measured(
         overlap(drawn_figure(seen.fitted.figure, at, deep, shape), mask)
         for at, mask in zip(joints, found.masks, strict=True)
     ]
-    away = _away(seen, joints, deep, found.rows, marked, held)
+    length = length_of(everything)
+    away = _away(seen, joints, length, found.rows, marked, held)
     carried = any(np.any((one > 0.0) & (one < 1.0)) for one in marks.trust.values())
-    length = _length(seen, joints, deep)
     return [
         *([carried_row(marks, marked, held, length)] if carried else []),
         {"what": f"dog, {name}: labelled places within 8 % of the length",
@@ -131,11 +145,11 @@ def carried_row(
 
 
 def _away(
-    seen: LimbedSeen, joints: Floats, deep: Floats, rows: NDArray[np.int64],
+    seen: LimbedSeen, joints: Floats, length: float, rows: NDArray[np.int64],
     marked: dict[str, Floats], held: NDArray[np.int64],
 ) -> Floats:  # fmt: skip
     """(n,) distances in lengths, of the joints that the figure has, in the held frames."""
-    figure, length = seen.fitted.figure, _length(seen, joints, deep)
+    figure = seen.fitted.figure
     kept = np.isin(rows, held)
     away = [
         np.linalg.norm(joints[kept, figure.names.index(name)] - at[rows[kept]], axis=1) / length
@@ -146,11 +160,14 @@ def _away(
     return np.asarray(flat[np.isfinite(flat)])
 
 
-def _length(seen: LimbedSeen, joints: Floats, deep: Floats) -> float:
-    """From rump to nose, px."""
-    body = list(seen.fitted.figure.limbs[0].joints)
-    way = np.linalg.norm(np.diff(joints[:, body], axis=1), axis=2).sum(axis=1)
-    return float(np.median(way) + deep[body[0]] + deep[body[-1]])
+def length_of(masks: NDArray[np.bool_]) -> float:
+    """From rump to nose, px: of the plan at rest that covers as much as the silhouettes do."""
+    figure = figure_of(load_plan("quadruped"), ("ear", "horn", "beard"))
+    body = list(figure.limbs[0].joints)
+    at_rest = np.array(figure.limbs[0].part.points)
+    way = float(np.linalg.norm(np.diff(at_rest, axis=0), axis=1).sum())
+    whole = way + figure.deep[body[0]] + figure.deep[body[-1]]
+    return float(whole * scale_of(figure, windows_of(masks, 48)))
 
 
 if __name__ == "__main__":

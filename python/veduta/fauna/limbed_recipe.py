@@ -22,6 +22,7 @@ from veduta.fauna.read.limbed_document import described_limbs, scaled_animal, wi
 from veduta.fauna.read.limbless import silhouettes_in
 from veduta.fauna.read.overlap import overlap
 from veduta.fauna.read.silhouettes import Silhouettes, frame_scores
+from veduta.fauna.read.ways import WayLooks, stretches_of
 from veduta.fauna.recipe import Record, second_view, still_footage, tell_scores
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
@@ -31,6 +32,7 @@ from veduta.run.work import Work
 _MOST_FRAMES = 72
 """More are not fitted: a cycle is in them many times over."""
 _FEWEST_FRAMES = 5
+_TURNS = "it turns round there, and one plane does not hold it"
 _CUT = "the frame's border cuts the animal; it is fitted from what is seen of it"
 
 
@@ -71,6 +73,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         cut = [] if found.cut is None else [int(n) for n in footage.number[found.rows[found.cut]]]
         step.rejected.extend(f"frame {number}: {_CUT}" for number in cut)
     pins = pins_of(work, record, footage, found, plan, options.footage)
+    found, ways = _turned(work, footage, found, plan, left_out, marked=bool(pins.px))
     with work.step("figure") as step:
         seen = fit_limbed(
             found.masks, footage.number[found.rows], plan, LimbedLooks(),
@@ -78,6 +81,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
             {name: places[found.rows] for name, places in pins.px.items()},
             footage.frames[found.rows],
             {name: trust[found.rows] for name, trust in pins.trust.items()}, found.shown(),
+            ways,
         )  # fmt: skip
         step.counts["segments"] = len(seen.fitted.figure.start)
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
@@ -124,6 +128,32 @@ def _fewer(found: Silhouettes) -> Silhouettes:
     return found.of(slice(first, first + _MOST_FRAMES))
 
 
+def _turned(
+    work: Work, footage: Footage, found: Silhouettes, plan: BodyPlan, left_out: list[str], *,
+    marked: bool,
+) -> tuple[Silhouettes, Floats | None]:  # fmt: skip
+    """The silhouettes of an animal that turns round without those in which it does, and (t,) which
+    way it looks in each; None where it does not turn, or marks alone hold it.
+    """
+    if plan.view == "top":
+        return found, None
+    stretches = stretches_of(found, footage.frames[found.rows], WayLooks(), marked=marked)
+    if not stretches.turning.any():
+        return found, None
+    with work.step("turns round") as step:
+        numbers = footage.number[found.rows[stretches.turning]]
+        step.counts["frames"] = len(numbers)
+        if stretches.right is None:
+            step.rejected.extend(f"frame {number}: {_TURNS}: the marks do" for number in numbers)
+            return found, None
+        told = [f"frame {number}: {_TURNS}; it is left out" for number in numbers]
+        step.rejected.extend(told)
+        left_out.extend(told)
+        work.note("the animal turns round: the frames on either side of that are used")
+    kept = np.flatnonzero(~stretches.turning)
+    return found.of(kept), stretches.right[kept]
+
+
 def _overlaps(seen: LimbedSeen, found: Silhouettes, joints: Floats) -> Floats:
     fitted = seen.fitted
     deep = fitted.deep * fitted.px_per_length
@@ -140,9 +170,13 @@ def _coat(
     footage: Footage, found: Silhouettes, seen: LimbedSeen, plan: BodyPlan, joints: Floats
 ) -> Texture:
     scaled = scaled_animal(seen, plan, footage.frame_s)
+    ways = seen.windows.ways()
+    # Of one that turns round the side that is seen for longer.
+    way = 1.0 if ways.sum() > 0.0 else -1.0
+    rows = np.flatnonzero(ways == way)
     return coat_of_plane(
-        footage.frames[found.rows], found.masks, figure_of(scaled.plan), scaled.turns, joints,
-        scaled.unit_px, seen.windows.faces, top=plan.view == "top",
+        footage.frames[found.rows[rows]], found.masks[rows], figure_of(scaled.plan),
+        scaled.turns[rows], joints[rows], scaled.unit_px, way, top=plan.view == "top",
     )  # fmt: skip
 
 

@@ -63,19 +63,22 @@ def fit_limbed(
     masks: Masks, frames: NDArray[np.int64], plan: BodyPlan, looks: LimbedLooks,
     heard: Callable[[], None], pins: Mapping[str, Floats] | None = None,
     pictures: NDArray[np.uint8] | None = None, trust: Mapping[str, Floats] | None = None,
-    shown: Shown | None = None,
+    shown: Shown | None = None, ways: Floats | None = None,
 ) -> LimbedSeen:  # fmt: skip
     """The figure of a plan in silhouettes (t, h, w) of the numbered frames.
 
     pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere. trust: (t,) by joint, how
     much each mark counts, if not 1. shown: of each frame that cuts the animal (h, w) what it shows,
-    None of the others. pictures: (t, h, w, 3) of the frames: they tell near legs from far ones, and
-    how the ground goes by.
+    None of the others. ways: (t,) of an animal that turns round, 1 where it looks to the right, -1
+    to the left. pictures: (t, h, w, 3) of the frames: they tell near legs from far ones, and how
+    the ground goes by.
     """
     optional = {part.name for part in plan.parts if part.optional}
     number = frames.astype(np.float64)
     middle = middles_of(masks, shown)
     coarse = windows_of(masks, looks.coarse_cells, middle, shown).marked(pins or {}, trust or {})
+    if ways is not None:
+        coarse = coarse.turned_where(ways)
     top = plan.view == "top"
     repeats = repeat_of(coarse, top=top)
     cycle, score = None, 0.0
@@ -85,11 +88,13 @@ def fit_limbed(
         cycle, score = (1.0 if top else 2.0) * repeats[0] * step, repeats[1]
     basis = _basis(number, cycle, looks.fit, looks.start_harmonics)
     figure = figure_of(plan, optional)
-    ways = _ways(travelled(masks, middle, pictures))
-    start = best_start(figure, coarse, number, basis, looks.fit, looks.start, ways, heard)
+    tried = _ways(travelled(masks, middle, pictures)) if ways is None else (1.0,)
+    start = best_start(figure, coarse, number, basis, looks.fit, looks.start, tried, heard)
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
     fine = windows_of(masks, looks.fine_cells, middle, shown).marked(pins or {}, trust or {})
+    if ways is not None:
+        fine = fine.turned_where(ways)
     if start.fit.windows.faces < 0.0:
         fine = fine.mirrored()
     if cycle is not None:

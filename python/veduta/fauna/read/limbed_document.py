@@ -134,7 +134,7 @@ def _sides_marked(seen: LimbedSeen) -> bool:
 def _seen_from(seen: LimbedSeen, plan: BodyPlan) -> Literal["left", "right", "above"]:
     if plan.view == "top":
         return "above"
-    return "right" if seen.windows.faces > 0.0 else "left"
+    return "right" if seen.windows.ways().sum() > 0.0 else "left"
 
 
 def _length(kind: str, options: FaunaOptions) -> tuple[Length, list[str]]:
@@ -202,8 +202,16 @@ def speed_in_pictures(seen: LimbedSeen, unit_px: float, frame_s: float) -> float
 
 def _root_ahead(seen: LimbedSeen) -> Floats:
     """(t,) how far forwards in the pictures the root is, px."""
-    root = seen.windows.in_picture(seen.fitted.root[:, None], seen.fitted.px_per_length)
-    return np.asarray(root[:, 0, 0] * seen.windows.faces)
+    windows = seen.windows
+    x = windows.in_picture(seen.fitted.root[:, None], seen.fitted.px_per_length)[:, 0, 0]
+    ways = windows.ways()
+    if (ways == ways[0]).all():
+        return np.asarray(x * windows.faces)
+    # Where it turns it goes on as it mostly goes.
+    step, late = np.diff(x) * ways[1:], np.diff(seen.frames)
+    same = ways[1:] == ways[:-1]
+    step = np.where(same, step, np.median((step / late)[same]) * late)
+    return np.concatenate([[0.0], np.cumsum(step)])
 
 
 def _places_of_feet(seen: LimbedSeen, unit_px: float, *, even: bool, top: bool) -> Floats:

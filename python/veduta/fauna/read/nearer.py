@@ -68,8 +68,9 @@ def nearer_legs(
     pairs = _pairs(figure)
     votes: dict[str, list[Floats]] = {left.part.name: [] for left, _ in pairs}
     step = float(np.min(np.diff(frames))) if len(frames) > 1 else 0.0
+    ways = windows.ways()
     for row in range(len(frames) - 1):
-        if frames[row + 1] - frames[row] > step:
+        if frames[row + 1] - frames[row] > step or ways[row] != ways[row + 1]:
             continue
         corner, size = _box(joints[row : row + 2], deep, pictures.shape[1:3])
         grey = [_grey(pictures[k], corner, size) for k in (row, row + 1)]
@@ -77,7 +78,8 @@ def nearer_legs(
         flow, places = _flow(*grey)[followed], _places(corner, size)[followed]
         for left, right in pairs:
             vote = _votes(figure, left, right, joints[row : row + 2], deep, places, flow, looks)
-            votes[left.part.name].append(vote)
+            # Of an animal that has turned round the other leg is the near one.
+            votes[left.part.name].append(vote * windows.faces * ways[row])
     found = []
     for part, each in votes.items():
         whole = np.concatenate(each) if each else np.zeros(0)

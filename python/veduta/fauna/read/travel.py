@@ -37,11 +37,16 @@ def travelled(masks: Masks, middle_px: Floats, pictures: Frames | None = None) -
     masks: (t, h, w); middle_px: (t, 2) their middles; pictures: (t, h, w, 3) of the same frames.
     Without pictures, and where no ground is seen, the picture stands for the ground.
     """
+    return float(gone_by_frame(masks, middle_px, pictures).sum())
+
+
+def gone_by_frame(masks: Masks, middle_px: Floats, pictures: Frames | None = None) -> Floats:
+    """(t - 1,) the same from frame to frame."""
     width = max(float(np.median(masks.any(axis=1).sum(axis=1))), 1.0)
     gone = np.diff(middle_px[:, 0])
     if pictures is not None:
         gone = gone - _ground(masks, pictures)
-    return float(gone.sum()) / width
+    return np.asarray(gone / width)
 
 
 def _ground(masks: Masks, pictures: Frames) -> Floats:

@@ -26,7 +26,9 @@ class Windows:
     shows nothing. middle_px: (t, 2) of the windows, x and y down in the picture. cell_px: the side
     of a cell. faces: 1 where the animal looks to the right of the picture, -1 where the windows are
     mirrored so that it does. pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere.
-    trust: (t,) by joint how much each mark counts, where they differ in that.
+    trust: (t,) by joint how much each mark counts, where they differ in that. turned: (t,) -1 for
+    the windows of an animal that turns round which are mirrored once more than `faces` says; empty
+    where it does not turn.
     """
 
     shares: Singles
@@ -35,6 +37,17 @@ class Windows:
     faces: float
     pins: Mapping[str, Floats] = field(default_factory=dict)
     trust: Mapping[str, Floats] = field(default_factory=dict)
+    turned: Floats = field(default_factory=lambda: np.zeros(0))
+
+    def ways(self) -> Floats:
+        """(t,) 1 where the animal looks to the right of the picture, -1 to the left."""
+        turned = self.turned if len(self.turned) else np.ones(len(self.shares))
+        return np.asarray(self.faces * turned)
+
+    def _flips(self) -> Floats:
+        """(t, 1, 2) what brings places from the windows into the picture, y down."""
+        ways = self.ways()
+        return np.stack([ways, -np.ones_like(ways)], axis=1)[:, None]
 
     def places(self, px_per_length: float) -> Singles:
         """(h * w, 2) the middles of the cells from the window's, x right, y up, in lengths."""
@@ -60,13 +73,13 @@ class Windows:
 
     def in_picture(self, points: Floats, px_per_length: float) -> Floats:
         """(t, n, 2) px, y down, of points in lengths from the windows' middles."""
-        flipped = points * np.array([self.faces, -1.0]) * px_per_length
+        flipped = points * self._flips() * px_per_length
         return np.asarray(self.middle_px[:, None] + flipped)
 
     def from_picture(self, points: Floats, px_per_length: float) -> Floats:
         """(t, n, 2) lengths from the windows' middles of points in the picture."""
         away = (points - self.middle_px[:, None]) / px_per_length
-        return np.asarray(away * np.array([self.faces, -1.0]))
+        return np.asarray(away * self._flips())
 
     def of(self, rows: NDArray[np.int64]) -> Windows:
         """Those of some frames."""
@@ -74,11 +87,19 @@ class Windows:
             {name: values[rows] for name, values in own.items()} for own in (self.pins, self.trust)
         )
         shares, middle = self.shares[rows], self.middle_px[rows]
-        return replace(self, shares=shares, middle_px=middle, pins=pins, trust=trust)
+        turned = self.turned[rows] if len(self.turned) else self.turned
+        return replace(self, shares=shares, middle_px=middle, pins=pins, trust=trust, turned=turned)
 
     def marked(self, pins: Mapping[str, Floats], trust: Mapping[str, Floats]) -> Windows:
         """The same with marked joints."""
         return replace(self, pins=pins, trust=trust)
+
+    def turned_where(self, turned: Floats) -> Windows:
+        """The same with the windows mirrored in which `turned` (t,) is -1."""
+        shares = self.shares.copy()
+        back = turned < 0.0
+        shares[back] = shares[back][:, :, ::-1]
+        return replace(self, shares=shares, turned=turned)
 
     def mirrored(self) -> Windows:
         """The same animal looking the other way."""
