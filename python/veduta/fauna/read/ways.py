@@ -23,8 +23,9 @@ from veduta.fauna.read.windows import middles_of, repeat_of, windows_of
 class WayLooks:
     """What a turn is."""
 
-    back: float = 0.25
-    """It goes so many of its silhouettes' widths there, and as many back."""
+    back: float = 0.15
+    """It goes so many of its silhouettes' widths there, and as many back: little, for it was narrow
+    between, too."""
     narrow: float = 0.75
     """Between it is narrower for its height than on both sides by this share."""
     fewest: int = 5
