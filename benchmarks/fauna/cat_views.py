@@ -12,6 +12,7 @@ from record import Value
 from scipy.spatial.transform import Rotation
 
 from veduta.fauna.build.limbed import BuiltLimbed, build_limbed
+from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.document.plan import load_plan
 from veduta.fauna.document.schema import Source
 from veduta.fauna.options import FaunaOptions
@@ -25,6 +26,16 @@ SIZE, SCALE = (360, 480), 3.0
 """The drawn frames, and pixels for a unit of the meshes."""
 CYCLE = 34.0
 """The 35th mesh is the first one again."""
+
+
+def fitted_cat() -> LimbedAnimal:
+    """The cat from its left side."""
+    meshes, triangles = _meshes(DATA / "animals" / "walking-cat" / "OBJ")
+    masks = np.stack([silhouette(_side(mesh), triangles) for mesh in meshes])
+    plan = load_plan("quadruped")
+    seen = fit_limbed(masks, np.arange(len(masks)), plan, LimbedLooks(), lambda: None)
+    source = Source(file="", sha256="", frames=len(masks), used=len(masks))
+    return described_limbs(seen, plan, "cat", source, 0.04, np.ones(1), FaunaOptions())
 
 
 def cat_rows() -> list[Row]:

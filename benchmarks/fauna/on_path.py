@@ -1,8 +1,9 @@
 """Animals with legs on their paths: feet on slopes, the body on the path, and how long it takes.
 
-`python benchmarks fauna/on_path ANIMAL.json ... [--no-keep]` takes documents that `veduta fauna`
-has made (of the walking cat, and of a drawn lizard), prints a table and keeps it in
-`benchmarks/results/fauna-on-path.md`.
+`python benchmarks fauna/on_path [ANIMAL.json ...] [--no-keep]` fits the walking cat and a drawn
+lizard, or takes documents that `veduta fauna` has made, prints a table and keeps it in
+`benchmarks/results/fauna-on-path.md`. Real data is read from `$VEDUTA_DATA`, else from
+`../shared/data`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from cat_views import fitted_cat
 from numpy.typing import NDArray
 from record import Value, keep_or_print
 
@@ -21,28 +23,36 @@ from veduta.fauna.build.limbed import build_limbed
 from veduta.fauna.build.walker import limbed_walker
 from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.document.load import load_animal
+from veduta.fauna.document.plan import load_plan
+from veduta.fauna.document.schema import Source
 from veduta.fauna.motion.transfer import TransferLooks, Walker, walked
+from veduta.fauna.options import FaunaOptions
 from veduta.fauna.path.limits import PathLimits
 from veduta.fauna.path.terrain import terrain_of_heights
 from veduta.fauna.path.through import path_through
+from veduta.fauna.read.limbed import LimbedLooks, fit_limbed
+from veduta.fauna.read.limbed_document import described_limbs
+from veduta.synthetic.animals import film_lizard
 
 Floats = NDArray[np.float64]
 Row = dict[str, Value]
+LIZARD = 116
+"""The seed of the lizard: the first one after those of `limbed.py`."""
 STEEP = float(np.tan(np.radians(30.0)))
 
 
 def main() -> None:
     """Measure all of it and keep the table."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("animals", type=Path, nargs="+")
+    parser.add_argument("animals", type=Path, nargs="*")
     parser.add_argument("--no-keep", action="store_true")
     given = parser.parse_args()
     rows: list[Row] = []
-    for number, path in enumerate(given.animals):
-        animal = load_animal(path)
+    animals = [load_animal(path) for path in given.animals] or [fitted_cat(), fitted_lizard()]
+    for number, animal in enumerate(animals):
         walker = limbed_walker(build_limbed(animal)) if isinstance(animal, LimbedAnimal) else None
         if walker is None:
-            raise SystemExit(f"{path} holds no gait")
+            raise SystemExit(f"{animal.name} holds no gait")
         rows += on_slopes(animal.kind, walker)
         if number == 0:
             rows.append(million(animal.kind, walker))
@@ -55,6 +65,15 @@ def main() -> None:
         " planted feet, after loading. The quadruped is the walking cat, the lizard a drawn one.",
     ]
     keep_or_print("fauna-on-path", rows, notes, not given.no_keep)
+
+
+def fitted_lizard() -> LimbedAnimal:
+    """A drawn one, from its true silhouettes."""
+    film = film_lizard(LIZARD, frames=36)
+    plan, rows = load_plan("lizard"), np.arange(len(film.masks))
+    seen = fit_limbed(film.masks, rows, plan, LimbedLooks(), lambda: None, pictures=film.frames)
+    source = Source(file="", sha256="", frames=len(rows), used=len(rows))
+    return described_limbs(seen, plan, "lizard", source, 0.04, np.ones(1), FaunaOptions())
 
 
 def on_slopes(kind: str, walker: Walker) -> list[Row]:

@@ -25,11 +25,13 @@ from veduta.fauna.read.footage import read_footage, read_masks
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
 from veduta.fauna.read.overlap import overlap
 from veduta.fauna.read.silhouettes import SilhouetteLooks, silhouettes_of
+from veduta.fauna.read.travel import travelled
+from veduta.fauna.read.windows import middles_of
 
 Floats = NDArray[np.float64]
 Masks = NDArray[np.bool_]
 Row = dict[str, Value]
-Filmed = tuple[Masks, NDArray[np.uint8]]
+Filmed = tuple[Masks, NDArray[np.uint8], float | None]
 DATA = Path(os.environ.get("VEDUTA_DATA", Path(__file__).parents[3] / "shared" / "data"))
 MOUSE_STEP, MOUSE_FRAMES = 4, 57
 """Every fourth frame of 250 a second, about two strides; every other of them is fitted."""
@@ -65,13 +67,14 @@ def main() -> None:
 
 
 def _measured(name: str, make: Callable[[], Filmed]) -> list[Row]:
-    masks, pictures = make()
+    masks, pictures, way = make()
     even = np.arange(0, len(masks), 2)
     # The mouse's back is cut off in each frame: nothing is known above the picture.
     shown = [np.ones_like(masks[0]) if masks[row][0].any() else None for row in even]
     seen = fit_limbed(
         masks[even], even, load_plan("quadruped"), LimbedLooks(), lambda: None,
         pictures=pictures[even], shown=shown,
+        ways=None if way is None else np.full(len(even), way),
     )  # fmt: skip
     scores = unseen_scores(seen, masks)
     return [{
@@ -108,30 +111,42 @@ def _scores(seen: LimbedSeen, joints: Floats, deep: Floats, masks: Masks) -> lis
 
 
 def goat_masks() -> Filmed:
-    """(t, h, w) the goat's silhouettes, as the data set has them, and its pictures."""
+    """(t, h, w) the goat's silhouettes, as the data set has them, its pictures, and which way it
+    looks: the fit tells that.
+    """
     folder = DATA / "animals" / "goat"
     footage = read_footage(folder / "images", None)
     found = silhouettes_of(read_masks(folder / "masks", footage), SilhouetteLooks(), "goat")
-    return found.masks, footage.frames[found.rows]
+    return found.masks, footage.frames[found.rows], None
 
 
 def mouse_masks() -> Filmed:
-    """(t, h, w) the mouse from the side, over its wheel, and its pictures."""
+    """(t, h, w) the mouse from the side, over its wheel, its pictures, and which way it looks.
+
+    That is told by the wheel under it in frames that follow each other: between those that are
+    fitted it turns by more than its holes are apart.
+    """
     footage = read_footage(DATA / "animals" / "mouse" / "test_vid.mp4", None)
     grey = footage.frames[:, :SIDE_PX].max(axis=3)
     still = np.median(grey[:: max(1, len(grey) // 60)], axis=0)
     above = np.arange(SIDE_PX)[:, None] < _wheel(still)[None, :] - 7.0
     spout = cv2.dilate((grey.min(axis=0) > 90).astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
     step = MOUSE_STEP // int(footage.number[1] - footage.number[0])
-    chosen = grey[: MOUSE_FRAMES * step : step]
-    raw = np.zeros((len(chosen), *still.shape), dtype=np.bool_)
-    for row, picture in enumerate(chosen):
-        calm = cv2.GaussianBlur(picture, (0, 0), 1.0)
-        light = ((calm > DARK) & above & ~spout).astype(np.uint8)
-        count, labels, stats, _ = cv2.connectedComponentsWithStats(light, connectivity=8)
-        if count > 1:
-            raw[row] = labels == 1 + int(stats[1:, cv2.CC_STAT_AREA].argmax())
-    return raw, footage.frames[: MOUSE_FRAMES * step : step, :SIDE_PX]
+    count = MOUSE_FRAMES * step
+    raw = np.stack([_lit(picture, above & ~spout) for picture in grey[:count]])
+    every = footage.frames[:count, :SIDE_PX]
+    gone = travelled(raw, middles_of(raw), every)
+    return raw[::step], every[::step], float(np.sign(gone))
+
+
+def _lit(picture: NDArray[np.uint8], where: Masks) -> Masks:
+    """(h, w) the largest of what is brighter than the dark behind it."""
+    calm = cv2.GaussianBlur(picture, (0, 0), 1.0)
+    light = ((calm > DARK) & where).astype(np.uint8)
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(light, connectivity=8)
+    if count < 2:
+        return np.zeros_like(where)
+    return np.asarray(labels == 1 + int(stats[1:, cv2.CC_STAT_AREA].argmax()))
 
 
 def _wheel(still: Floats) -> Floats:
