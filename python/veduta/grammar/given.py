@@ -47,11 +47,14 @@ def check_options(rules: _core.GrammarRules, path: Path, options: GrammarOptions
     return options.model_copy(update={"attributes": AttributeOptions(values=values)})
 
 
+NO_START = "has no rule that starts without arguments"
+CALL_ONE = 'Say its first rule\'s arguments, as --start "Lot(9)".'
+
+
 def _check_start(rules: _core.GrammarRules, path: Path, start: str | None) -> None:
     starts = rules.starts
     if not starts:
-        remedy = 'Say its first rule\'s arguments, as --start "Lot(9)".'
-        raise InputError(path, "has no rule that starts without arguments", remedy)
+        raise InputError(path, NO_START, CALL_ONE)
     if start is not None and start not in starts:
         fault = f"is no rule of {path.name} that can start without arguments"
         hint = f'{_near(start, starts)} One that takes arguments: --start "{start}(9)".'

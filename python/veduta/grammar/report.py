@@ -10,6 +10,7 @@ from typing import Any
 from veduta.grammar.failures import Failures
 from veduta.grammar.left_out import LeftOut
 from veduta.grammar.options import GrammarOptions
+from veduta.grammar.otherwise import FIRST_TOLD
 from veduta.grammar.reported import FILE, Sum, as_json, joined
 from veduta.grammar.same_faults import told_once
 from veduta.run.page import Bars, Page, Table, render
@@ -130,7 +131,9 @@ def _notes(whole: Whole) -> list[str]:
     """What several buildings say is said once; of surfaces left out `told_of_all` says it."""
     said = whole.notes + Counter(note for lot in whole.rows for note in set(lot["notes"]))
     told = [f"{note} ({count} lots)" if count > 1 else note for note, count in said.items()]
-    return told[:50]
+    # The first of them are told at the terminal, and stand above.
+    boxes = [f"{why} A box stands for it." for why in sorted(whole.missing)[FIRST_TOLD:]]
+    return (told + boxes)[:50]
 
 
 def _tables(whole: Whole, found: Mapping[str, Any]) -> list[Table]:

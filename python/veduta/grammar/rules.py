@@ -34,6 +34,7 @@ CALLED = "CalledFirst"
 """The rule that a start rule with arguments is called by."""
 _CALL = re.compile(r"([A-Za-z_][\w.]*)\s*\([^\n]*\)")
 _HEAD = re.compile(r"^\s*([A-Za-z_]\w*)\s*\([^\n()]*\)\s*-->", re.MULTILINE)
+_PLAIN_HEAD = re.compile(r"^\s*([A-Za-z_]\w*)\s*-->", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -197,6 +198,16 @@ def compile_rules(
             f"has faults\n{str(fault).rstrip()}\nNothing can be derived from it",
             "Mend these first.",
         ) from fault
+
+
+def begins_nothing(rules: RuleFiles, compiled: _core.GrammarRules) -> bool:
+    """Whether all rules of the main file take arguments, as those of libraries do.
+
+    The first of them stands for its start rule then, and cannot be derived as it is.
+    """
+    main = rules.files[0][1]
+    taking, plain = set(_HEAD.findall(main)), set(_PLAIN_HEAD.findall(main))
+    return all(name in taking and name not in plain for name in compiled.starts)
 
 
 def read_text(path: Path) -> str:

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from veduta import _core
 from veduta.grammar.block import NOTHING
 from veduta.grammar.deriving import Deriver, attributes_of, with_files
-from veduta.grammar.given import check_options
+from veduta.grammar.given import CALL_ONE, NO_START, check_options
 from veduta.grammar.levels import FULL, levels_of
 from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.otherwise import otherwise
-from veduta.grammar.rules import RuleFiles, compile_rules
+from veduta.grammar.rules import RuleFiles, begins_nothing, compile_rules
 from veduta.grammar.textures import texture_faults
 from veduta.run.errors import InputError
 
@@ -32,6 +32,10 @@ def tried(
         return tuple(faults), ()
     try:
         compiled = compile_rules(rules, options.derive.style, options.derive.start)
+        if options.derive.start is None and begins_nothing(rules, compiled):
+            # A library for others to import: nothing is wrong with it, and nothing begins.
+            note = f"{NO_START}, so nothing was derived: its rules are checked alone. {CALL_ONE}"
+            return (), (note, *otherwise(rules, compiled))
         options = check_options(compiled, rules.path, options)
     except InputError as error:
         return (str(error),), ()

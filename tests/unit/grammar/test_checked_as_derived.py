@@ -9,7 +9,6 @@ import pytest
 from veduta.cli.main import main
 
 REFUSED = {
-    "arguments": ("Lot(h) --> extrude(h)", 'write --start "Lot('),
     "text": ('Lot --> extrude("high")', "main.cga:1:17: a number is needed"),
     "nothing": ("Lot --> NIL", "the rules leave nothing on it"),
     "late": ("Lot --> extrude(3) comp(f) { side : Wall(\"wide\") | all : A. }\n"
@@ -53,6 +52,17 @@ def test_what_nothing_reaches_is_told(
     checked, derived = capsys.readouterr().out.split("main.cga: 0 errors, ")
     assert told in checked
     assert told in derived
+
+
+def test_a_library_is_checked_and_begins_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its rules are fine, each with arguments for who imports it: only deriving needs a start."""
+    assert both("Wall(h) --> extrude(h)", tmp_path) == (0, 2)
+    said = capsys.readouterr()
+    assert "nothing was derived: its rules are checked alone" in said.out
+    assert 'write --start "Wall(' in said.err
+    assert both("Wall(h) --> boxx(h)", tmp_path)[0] == 2
 
 
 def test_a_start_rule_with_arguments_is_tried_with_them(tmp_path: Path) -> None:
