@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from veduta.facade.above_eaves import Surfaces
+from veduta.facade.balustrades import with_balustrades
 from veduta.facade.boxes import Box
 from veduta.facade.columns import Columns
 from veduta.facade.compose import Parse, compose
@@ -315,6 +316,7 @@ def _openings(
     if front.glass is None:
         other = front.no_passage[part]
         boxes = with_passages(boxes, inner.lab[..., 0], front.wall[part], other, boundaries[-1])
+    boxes = with_balustrades(boxes, boundaries[0])
     panes = [box for box in boxes if front.is_pane(box, sides.left)]
     others = [box for box in boxes if not front.is_pane(box, sides.left)]
     boxes = [*with_heads(others, inner.lab), *panes]

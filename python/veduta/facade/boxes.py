@@ -16,6 +16,7 @@ class Box:
 
     outline: its shape where that is no rectangle, corners in order. is_inferred: nothing of it is
     seen, but others say that it is there. is_passage: of a door, that it leads through the house.
+    is_balustrade: of a balcony, that it stands on the edge of the roof.
     """
 
     kind: str
@@ -29,6 +30,7 @@ class Box:
     outline: tuple[tuple[float, float], ...] = ()
     is_inferred: bool = False
     is_passage: bool = False
+    is_balustrade: bool = False
 
     def part(self, top: int = 0) -> tuple[slice, slice]:
         """Rows and columns of the box in an image whose first row is `top`."""

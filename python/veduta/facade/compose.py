@@ -155,6 +155,7 @@ def _element(box: Box, k: _Enlargement, facade: FacadeBox, m: float) -> Element:
             "column": box.column,
             "provenance": "measured" if is_measured else "inferred",
             "passage": box.is_passage,
+            "balustrade": box.is_balustrade,
         }
     )
 

@@ -164,6 +164,12 @@ class Element(_Record):
         description="of a door: a way through the house, and no leaf",
     )
 
+    balustrade: bool = Field(
+        default=False,
+        exclude_if=lambda balustrade: not balustrade,
+        description="of a balcony: a stone rail on the edge of the roof; nobody stands behind it",
+    )
+
     @property
     def is_doubtful(self) -> bool:
         """Whether the photo speaks rather against it. What a person adds is not in doubt."""

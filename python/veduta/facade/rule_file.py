@@ -207,9 +207,19 @@ class _Writer:
         self.parts |= {"reveal"}
         self.known[f"reveal of {name}"] = Known((deep_m, place.height))
 
+    def _balustrade(self, name: str, balustrade: Opening) -> str:
+        """The call of a stone rail on the edge of the roof, of the wall's colour."""
+        self.parts |= {"library_balustrade"}
+        place, stone = balustrade.rectangle, hex_colour(self.textures.colours.wall)
+        x, w, h = map(metres, (place.x0, place.width, place.height))
+        kind = f'"{name}", "{balustrade.element.provenance}", "{stone}"'
+        return f"[ Balustrade({kind}, {x}, {self._height(place.z0)}, {w}, {h}) ]"
+
     def _balcony(self, balcony: Opening) -> str:
-        self.parts |= {"balcony", "library_railing"}
         name, place = self._name(balcony), balcony.rectangle
+        if balcony.element.balustrade and self.plan.library:
+            return self._balustrade(name, balcony)
+        self.parts |= {"balcony", "library_railing"}
         out = depth_of_balcony(balcony, self.plan)
         self.known[f"floor and sides of {name}"] = Known((place.width, out.m))
         x, w, h = map(metres, (place.x0, place.width, place.height))
@@ -311,6 +321,7 @@ _ORDER: Sequence[str] = (
     "window", "shaped", "column", "opening", "panel", "reveal", "balcony", "ledge", "mansard",
     "gable", "hip", "dormer", "slope_column", "chimney", "library_railing", "library_door",
     "library_dormer", "library_chimney", "library_cornice", "library_shutter",
+    "library_balustrade",
 )  # fmt: skip
 _COLUMNS = {" Column(": "column", " SlopeColumn(": "slope_column"}
 

@@ -90,12 +90,13 @@ IMPORTS = {
     "library_dormer": "dormers",
     "library_cornice": "mouldings",
     "library_shutter": "shutters",
+    "library_balustrade": "railings",
 }
 """What the parts that take things of the asset library import, of `styles/parts`."""
 
 
 def _imports(parts: Set[str]) -> str:
-    names = [name for part, name in IMPORTS.items() if part in parts]
+    names = dict.fromkeys(name for part, name in IMPORTS.items() if part in parts)
     return "".join(f'import {name} : "styles/parts/{name}.cga"\n' for name in names)
 
 

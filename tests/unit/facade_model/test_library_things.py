@@ -71,6 +71,19 @@ def _instances(part: Part) -> dict[str, int]:
     return counts
 
 
+def _box_of(part: Part, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lower and upper corner of the things of a feature (m)."""
+    assert part.instances is not None
+    found = []
+    for group in part.instances.groups:
+        corners = placed(group.part_from_mesh, part.instances.meshes[group.mesh].positions_m)
+        found += [
+            corners[k] for k, row in enumerate(group.feature) if part.features.name[row] == name
+        ]
+    points = np.concatenate(found)
+    return points.min(axis=0), points.max(axis=0)
+
+
 def test_the_body_is_closed_and_all_is_there(part: Part) -> None:
     assert_closed(part)
     assert part.notes == ()
@@ -96,22 +109,15 @@ def test_nothing_stands_far_from_where_the_document_has_it(part: Part) -> None:
 
 def test_shutters_lie_beside_their_window_or_in_it(part: Part) -> None:
     """The leaf goes down to the floor of the balcony; what is before no window is left out."""
-    boxes: dict[str, list[NDArray[np.float64]]] = {}
-    assert part.instances is not None
-    for group in part.instances.groups:
-        corners = placed(group.part_from_mesh, part.instances.meshes[group.mesh].positions_m)
-        for row, points in zip(group.feature.tolist(), corners, strict=True):
-            boxes.setdefault(part.features.name[row], []).append(points)
-    low, high = {}, {}
-    for name in (name for name in boxes if name.startswith("shutter")):
-        points = np.concatenate(boxes[name])
-        low[name], high[name] = points.min(axis=0), points.max(axis=0)
-    assert set(low) == {"shutter 1", "shutter 2"}
+    found = {name for name in _instances(part) if name.startswith("shutter")}
+    assert found == {"shutter 1", "shutter 2"}
     # y points into the house: the setback is 0.2 m.
-    assert low["shutter 1"] == pytest.approx([3.64, -0.065, 6.1], abs=0.01)
-    assert high["shutter 1"] == pytest.approx([4.0, -0.02, 8.6], abs=0.01)
-    assert low["shutter 2"] == pytest.approx([4.0, 0.135, 7.75], abs=0.02)
-    assert high["shutter 2"] == pytest.approx([5.2, 0.18, 8.6], abs=0.02)
+    low, high = _box_of(part, "shutter 1")
+    assert low == pytest.approx([3.64, -0.065, 6.1], abs=0.01)
+    assert high == pytest.approx([4.0, -0.02, 8.6], abs=0.01)
+    low, high = _box_of(part, "shutter 2")
+    assert low == pytest.approx([4.0, 0.135, 7.75], abs=0.02)
+    assert high == pytest.approx([5.2, 0.18, 8.6], abs=0.02)
 
 
 def test_a_passage_is_deep_and_has_no_leaf() -> None:
@@ -131,6 +137,21 @@ def test_a_passage_is_deep_and_has_no_leaf() -> None:
     corners = part.positions_m[triangles.indices[own]].reshape(-1, 3)
     assert corners[:, 1].max() == pytest.approx(3.0, abs=0.01)
     assert part.features.provenance(row) is Provenance.INVENTED
+
+
+def test_a_balustrade_stands_on_the_wall_and_juts_out_nowhere() -> None:
+    document = _document()
+    balcony = next(e for e in document.elements if e.class_ == "balcony" and e.width_m > 9.0)
+    rail = balcony.model_copy(update={"y_m": 15.0, "y_px": EAVES_PX - 40.0, "balustrade": True})
+    elements = [e for e in document.elements if e.class_ != "balcony"]
+    changed = document.model_copy(update={"elements": [*elements, rail], "shutters": []})
+    made = build_model(changed, sample_photo(document), "house")
+    assert_closed(made.part)
+    assert "attr railingKind" not in made.rules
+    assert _instances(made.part)["balcony 1"] > 5
+    low, high = _box_of(made.part, "balcony 1")
+    assert low == pytest.approx([0.4, 0.0, 15.0], abs=0.05)
+    assert high == pytest.approx([11.6, 0.25, 16.0], abs=0.05)
 
 
 def test_the_photo_on_plain_boxes_has_none_of_it() -> None:
