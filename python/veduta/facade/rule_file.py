@@ -213,7 +213,9 @@ class _Writer:
         place, stone = balustrade.rectangle, hex_colour(self.textures.colours.wall)
         x, w, h = map(metres, (place.x0, place.width, place.height))
         kind = f'"{name}", "{balustrade.element.provenance}", "{stone}"'
-        return f"[ Balustrade({kind}, {x}, {self._height(place.z0)}, {w}, {h}) ]"
+        # Below the eaves there is wall behind it: it stands before that.
+        out = "0" if place.z0 + 0.5 * place.height > self.plan.eaves_m else "0.25"
+        return f"[ Balustrade({kind}, {x}, {self._height(place.z0)}, {w}, {h}, {out}) ]"
 
     def _balcony(self, balcony: Opening) -> str:
         name, place = self._name(balcony), balcony.rectangle

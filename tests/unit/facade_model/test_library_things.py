@@ -139,10 +139,12 @@ def test_a_passage_is_deep_and_has_no_leaf() -> None:
     assert part.features.provenance(row) is Provenance.INVENTED
 
 
-def test_a_balustrade_stands_on_the_wall_and_juts_out_nowhere() -> None:
+@pytest.mark.parametrize(("foot_m", "out_m"), [(15.0, 0.0), (13.9, 0.25)])
+def test_a_balustrade_stands_on_the_wall_or_before_its_end(foot_m: float, out_m: float) -> None:
     document = _document()
     balcony = next(e for e in document.elements if e.class_ == "balcony" and e.width_m > 9.0)
-    rail = balcony.model_copy(update={"y_m": 15.0, "y_px": EAVES_PX - 40.0, "balustrade": True})
+    y_px = EAVES_PX + (14.0 - foot_m) / METRES_PER_PX
+    rail = balcony.model_copy(update={"y_m": foot_m, "y_px": y_px, "balustrade": True})
     elements = [e for e in document.elements if e.class_ != "balcony"]
     changed = document.model_copy(update={"elements": [*elements, rail], "shutters": []})
     made = build_model(changed, sample_photo(document), "house")
@@ -150,8 +152,8 @@ def test_a_balustrade_stands_on_the_wall_and_juts_out_nowhere() -> None:
     assert "attr railingKind" not in made.rules
     assert _instances(made.part)["balcony 1"] > 5
     low, high = _box_of(made.part, "balcony 1")
-    assert low == pytest.approx([0.4, 0.0, 15.0], abs=0.05)
-    assert high == pytest.approx([11.6, 0.25, 16.0], abs=0.05)
+    assert low == pytest.approx([0.4, -out_m, foot_m], abs=0.05)
+    assert high == pytest.approx([11.6, 0.25 - out_m, foot_m + 1.0], abs=0.05)
 
 
 def test_the_photo_on_plain_boxes_has_none_of_it() -> None:
