@@ -391,6 +391,38 @@ fn what_nothing_reaches_refuses_nothing() {
 }
 
 #[test]
+fn an_unknown_operation_stops_where_its_branch_is_taken() {
+    let told = "there is no operation or rule `boxx`; a derivation that takes this branch stops";
+    let warning = format!("1:27 warning: {told}");
+    compare(&[(
+        "Lot --> case 1 > 2 : s(1) boxx(3) else : A.",
+        &[
+            "1:22 error: `s` takes 3 arguments, 1 is given",
+            warning.as_str(),
+        ],
+    )]);
+    let derived = |text: &str| {
+        let program = Program::single(Source::new("a", text));
+        let checked = check(&program);
+        assert!(!checked.has_errors(), "{}", checked.render(&program));
+        assert_eq!(checked.unreached[0].len(), 1);
+        let code = veduta_grammar::engine::lower(&program, &checked).code;
+        let options = veduta_grammar::engine::Options::default();
+        let lot = crate::support::lot();
+        let tree = veduta_grammar::engine::derive(&code, code.start.unwrap(), lot, &options);
+        tree.map(|tree| tree.messages)
+            .map_err(|fault| fault.message.to_string())
+    };
+    let spared = derived("Lot --> case 1 > 2 : boxx(3) else : print(7)");
+    assert_eq!(spared, Ok(vec!["7".to_string()]));
+    let stopped = derived("Lot --> case 1 < 2 : boxx(3) else : print(7)");
+    assert_eq!(
+        stopped,
+        Err("there is no operation or rule `boxx`".to_string())
+    );
+}
+
+#[test]
 fn many_warnings_hide_no_error() {
     use veduta_grammar::check_from;
     let old: String = (0..150)

@@ -221,3 +221,44 @@ fn imports_that_multiply_are_refused() {
     let lowered = lower(&program, &checked);
     assert!(lowered.has_errors());
 }
+
+/// What a check and then a derivation say of a main file whose import `gone` is missing.
+fn without_import(rest: &str) -> (bool, Result<Vec<String>, String>) {
+    let program = program(&format!("import gone : \"gone.cga\"\n{rest}"), &[]);
+    let checked = check(&program);
+    if checked.has_errors() {
+        return (false, Err(checked.render(&program)));
+    }
+    let lowered = lower(&program, &checked);
+    assert!(!lowered.has_errors(), "{:?}", lowered.diagnostics);
+    let code = lowered.code;
+    let derived = derive(&code, code.start.unwrap(), lot(), &Options::default());
+    let told = derived.map(|tree| tree.messages);
+    (true, told.map_err(|fault| fault.message.to_string()))
+}
+
+#[test]
+fn a_missing_import_refuses_what_names_it_and_is_reached() {
+    let fine = Ok(vec!["7".to_string()]);
+    for unused in [
+        "const h = gone.height\nLot --> print(7)",
+        "const h = gone.height\nconst twice = 2 * h\nLot --> print(7)",
+        "high(a) = gone.height + a\nconst h = high(1)\nLot --> print(7)",
+        "const h = gone.height\nLot --> print(7)\nOld --> print(h)",
+    ] {
+        assert_eq!(without_import(unused), (true, fine.clone()), "{unused}");
+    }
+    for used in [
+        "const h = gone.height\nLot --> print(h)",
+        "const h = gone.height\nconst twice = 2 * h\nLot --> Next\nNext --> print(twice)",
+        "high(a) = gone.height + a\nLot --> case high(1) > 2 : A. else : B.",
+        "const h = gone.height\nattr top = h\nLot --> print(7)",
+    ] {
+        let (is_fine, told) = without_import(used);
+        assert!(!is_fine, "{used}");
+        assert!(
+            told.unwrap_err().contains("cannot import `gone.cga`"),
+            "{used}"
+        );
+    }
+}

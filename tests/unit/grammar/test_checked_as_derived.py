@@ -14,10 +14,13 @@ REFUSED = {
     "late": ("Lot --> extrude(3) comp(f) { side : Wall(\"wide\") | all : A. }\n"
              "Wall(n) --> split(x) { n : A. }", "main.cga:2:"),
     "reached": ("Lot --> boxx(3)", "there is no operation or rule `boxx`"),
+    "branch": ("Lot --> case 1 < 2 : boxx(3) else : A.", "there is no operation or rule `boxx`"),
 }  # fmt: skip
 TAKEN = {
     "unreached": ("Lot --> extrude(3)\nOld --> boxx(3)", "main.cga:2:9: "),
     "import": ('import old : "old.cga"\nLot --> extrude(3)\nOld --> old.Lot', "main.cga:1:14: "),
+    "constant": ('import old : "old.cga"\nconst h = old.h\nLot --> extrude(3)', "main.cga:1:14: "),
+    "branch": ("Lot --> case 1 > 2 : boxx(3) else : extrude(3)", "main.cga:1:22: "),
     "computed": ('Lot --> extrude(3) comp(f) { side : i("win" + "dow.obj") | all : A. }',
                  "window.obj"),
 }  # fmt: skip

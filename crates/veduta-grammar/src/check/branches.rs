@@ -25,6 +25,7 @@ impl Checker<'_> {
     }
 
     pub fn branches<T>(&mut self, all: &Branches<T>, missing: &str, part: fn(&mut Self, &T)) {
+        self.branching += 1;
         for branch in &all.branches {
             self.expr(&branch.test, NONE);
             // What is not the first test may not be evaluated.
@@ -43,6 +44,7 @@ impl Checker<'_> {
         for _ in &all.branches {
             self.calls.leave_branch();
         }
+        self.branching -= 1;
         match all.test {
             Test::Chance => self.chances(all),
             Test::Case => self.cases(all),

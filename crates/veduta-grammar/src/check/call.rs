@@ -64,7 +64,7 @@ impl Checker<'_> {
     }
 
     /// A name without a rule is a leaf, and worth a warning. With a block, or with arguments and
-    /// in lower case as operations are, it is an error.
+    /// in lower case as operations are, it is an error, and in alternatives one where it is reached.
     fn report_no_rule(&mut self, call: &Call) {
         let name = &call.name;
         let place = self.place(name);
@@ -98,8 +98,15 @@ impl Checker<'_> {
             && (text.contains('.') || !call.args().is_empty());
         if call.block.is_some() || is_operation {
             let message = format!("there is no operation or rule `{text}`");
-            let fault = Diagnostic::error(name.span, message);
-            return self.diagnostics.add(fault.with_hint(hint));
+            if self.branching == 0 {
+                let fault = Diagnostic::error(name.span, message);
+                return self.diagnostics.add(fault.with_hint(hint));
+            }
+            // Which branch is taken is known as late as one derives.
+            let message = format!("{message}; a derivation that takes this branch stops");
+            let told = Diagnostic::warning(name.span, message).with_hint(hint);
+            self.reach.stops.push(told.clone());
+            return self.diagnostics.add(told);
         }
         self.resolve(name, Target::Leaf);
         if self.is_broken || is_full {

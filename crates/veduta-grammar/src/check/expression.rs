@@ -106,6 +106,7 @@ impl Checker<'_> {
                 if unit == self.unit {
                     self.calls.call(index);
                 }
+                self.reach.uses.push((self.reach.origin, (unit, index)));
                 return self.resolve(name, Target::Value { unit, index });
             }
         }

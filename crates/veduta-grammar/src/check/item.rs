@@ -6,7 +6,9 @@ use super::call::takes;
 use super::definitions::Role;
 use super::lookup::Place;
 use super::{Checker, Target};
-use crate::ast::{Annotation, Ident, Import, Item, ItemKind, Local, Override, Rule, RuleKeyword};
+use crate::ast::{
+    Annotation, Ident, Import, Item, ItemKind, Local, Override, Rule, RuleKeyword, ValueKeyword,
+};
 use crate::builtins::annotations::ANNOTATIONS;
 use crate::builtins::{operations, NONE};
 use crate::suggest::{closest, did_you_mean};
@@ -22,7 +24,8 @@ impl<'a> Checker<'a> {
             self.reach.origin = self.can_be_unreached(item).then_some(index);
             let before = self.diagnostics.len();
             self.item(item, in_style);
-            if self.reach.origin.is_some() {
+            let is_rule = matches!(item.kind, ItemKind::Rule(_));
+            if self.reach.origin.is_some() && is_rule {
                 self.reach
                     .told
                     .push((index, before..self.diagnostics.len()));
@@ -62,11 +65,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a statement is a rule that only counts where others call it. One of an import that
-    /// this file tells otherwise is called under another name.
+    /// Whether a statement is a rule, a constant or a function that only counts where others name
+    /// it. A rule of an import that this file tells otherwise is called under another name.
     fn can_be_unreached(&self, item: &Item) -> bool {
         match &item.kind {
             ItemKind::Rule(rule) => !self.text(&rule.name).contains('.'),
+            ItemKind::Value(value) => value.keyword != ValueKeyword::Attr,
             _ => false,
         }
     }

@@ -65,8 +65,8 @@ pub struct Checked {
     pub diagnostics: Vec<Vec<Diagnostic>>,
     pub definitions: Vec<Definitions>,
     pub resolutions: Vec<Resolution>,
-    /// Rules that cannot be derived and that nothing reaches from the start rule, by file and item,
-    /// and why: where one is reached after all, the derivation stops.
+    /// Rules and values that cannot be derived and that nothing reaches from the start rule, by file
+    /// and item, and why: where one is reached after all, the derivation stops.
     pub broken: HashMap<(usize, usize), Diagnostic>,
     /// What would be an error where it were reached; among the diagnostics, too.
     pub unreached: Vec<Vec<Diagnostic>>,
@@ -163,6 +163,8 @@ struct Checker<'a> {
     locals: HashMap<Symbol, usize>,
     calls: recursion::Calls,
     reach: reached::Reach,
+    /// How many alternatives one is in.
+    branching: usize,
     /// Whether statements did not parse: what they define is not known to be missing.
     is_broken: bool,
 }
@@ -186,6 +188,7 @@ impl<'a> Checker<'a> {
             locals: HashMap::new(),
             calls: recursion::Calls::default(),
             reach: reached::Reach::default(),
+            branching: 0,
             is_broken: false,
         }
     }

@@ -14,13 +14,24 @@ const UNUSED: &str = "nothing that is reached uses it";
 /// A rule: its file, and its place among the definitions or the items there.
 type Place = (usize, usize);
 
+/// A rule or a value that a statement names.
+#[derive(Clone, Copy)]
+enum Named {
+    Rule(Place),
+    Value(Place),
+}
+
 /// What the statements of one file call, and what was said of them.
 #[derive(Debug, Default)]
 pub(super) struct Reach {
-    /// The item in hand, where it is a rule that only counts where others call it.
+    /// The item in hand, where it is a rule or a value that only counts where others name it.
     pub origin: Option<usize>,
     /// Who calls which rule (file and definition).
     pub calls: Vec<(Option<usize>, Place)>,
+    /// Who uses which constant, attribute or function (file and definition).
+    pub uses: Vec<(Option<usize>, Place)>,
+    /// What stops a derivation in a branch that is taken, and no other.
+    pub stops: Vec<Diagnostic>,
     /// Which diagnostics are about an item.
     pub told: Vec<(usize, Range<usize>)>,
     /// Who names something of a file that is missing: its importer, which import, and where.
@@ -36,7 +47,7 @@ impl Reach {
 /// What nothing reaches.
 #[derive(Debug, Default)]
 pub(super) struct Unreached {
-    /// Rules that cannot be derived, by file and item, and why.
+    /// Rules and values that cannot be derived, by file and item, and why.
     pub broken: HashMap<Place, Diagnostic>,
     /// What was an error where it were reached, by file.
     pub told: Vec<Vec<Diagnostic>>,
@@ -81,6 +92,7 @@ impl Settling<'_> {
                     }
                 }
             }
+            found.told[unit].extend(reach.stops.iter().cloned());
             for (item, some) in &reach.told {
                 if !is_reached(unit, Some(*item)) {
                     for (before, told) in faults[unit].soften(some.clone(), WHY) {
@@ -107,23 +119,32 @@ impl Settling<'_> {
         found
     }
 
-    /// The items of rules that the start rule reaches, over calls of any branch.
+    /// The items of rules and values that the start rule reaches, over calls and uses of any
+    /// branch. Attributes are reached: a call gives them, and is shown them.
     fn reached_items(&self) -> HashSet<Place> {
-        let mut calls: HashMap<Place, Vec<Place>> = HashMap::new();
-        let mut open: Vec<Place> = self.start.into_iter().collect();
+        let mut next: HashMap<Place, Vec<Named>> = HashMap::new();
+        let mut open: Vec<Named> = self.start.into_iter().map(Named::Rule).collect();
         for (unit, reach) in self.reaches.iter().enumerate() {
-            for (origin, called) in &reach.calls {
+            let calls = reach.calls.iter();
+            let calls = calls.map(|(origin, called)| (*origin, Named::Rule(*called)));
+            let uses = reach.uses.iter();
+            let uses = uses.map(|(origin, used)| (*origin, Named::Value(*used)));
+            for (origin, named) in calls.chain(uses) {
                 match origin {
-                    Some(item) => calls.entry((unit, *item)).or_default().push(*called),
-                    None => open.push(*called),
+                    Some(item) => next.entry((unit, item)).or_default().push(named),
+                    None => open.push(named),
                 }
             }
         }
         let mut reached = HashSet::new();
-        while let Some((unit, index)) = open.pop() {
-            for variant in &self.definitions[unit].rules[index].variants {
+        while let Some(named) = open.pop() {
+            let (unit, definition) = match named {
+                Named::Rule((unit, index)) => (unit, &self.definitions[unit].rules[index]),
+                Named::Value((unit, index)) => (unit, &self.definitions[unit].values[index]),
+            };
+            for variant in &definition.variants {
                 if reached.insert((unit, variant.item)) {
-                    open.extend(calls.get(&(unit, variant.item)).into_iter().flatten());
+                    open.extend(next.get(&(unit, variant.item)).into_iter().flatten());
                 }
             }
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::ast::{BinaryOp, Joining, UnaryOp};
 use crate::shape::Kind;
-use crate::{Span, Symbol};
+use crate::{Diagnostic, Span, Symbol};
 
 use super::files::FileFunction;
 use super::functions::Function;
@@ -104,11 +104,22 @@ pub struct Expr {
     pub span: Span,
 }
 
+impl Expr {
+    /// One that stops the derivation where it is evaluated.
+    pub fn broken(fault: &Diagnostic) -> Self {
+        let kind = ExprKind::Broken(fault.message.as_str().into());
+        let span = fault.span;
+        Self { kind, span }
+    }
+}
+
 #[derive(Debug, Clone)]
 pub enum ExprKind {
     Number(f64),
     Bool(bool),
     Text(Arc<str>),
+    /// What cannot be evaluated, and nothing was thought to reach: why.
+    Broken(Arc<str>),
     /// A word that is no value (`front`, `uvSpace`).
     Word(Arc<str>),
     /// A parameter or a value of `with`.

@@ -50,6 +50,7 @@ impl Run<'_> {
             ExprKind::Number(number) => Ok(Value::Number(*number)),
             ExprKind::Bool(is) => Ok(Value::Bool(*is)),
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
+            ExprKind::Broken(why) => Err(Fault::at(expr.span, why.as_ref())),
             ExprKind::Slot(slot) => Ok(scene.slots[*slot].clone()),
             ExprKind::Global(global) => self.global(*global, scene.state),
             ExprKind::Word(word) => Ok(Value::Text(word.clone())),

@@ -241,7 +241,11 @@ impl<'a> Lowering<'a> {
             let variant = self.own().variant(&definition.variants);
             match &file.items[variant.item].kind {
                 ItemKind::Rule(rule) => self.rule(rule, variant.item, definition, code),
-                ItemKind::Value(value) => self.value(value, index, definition, code),
+                ItemKind::Value(value) => {
+                    let place = (self.own().unit, variant.item);
+                    let fault = self.checked.broken.get(&place);
+                    self.value(value, fault, index, definition, code);
+                }
                 _ => {}
             }
         }
@@ -312,6 +316,7 @@ impl<'a> Lowering<'a> {
     fn value(
         &mut self,
         value: &ast::Value,
+        fault: Option<&Diagnostic>,
         index: usize,
         definition: &Definition,
         code: &mut Code,
@@ -322,7 +327,10 @@ impl<'a> Lowering<'a> {
             Number::Global(number) => {
                 let (unit, locals, value) = match self.imposed(definition) {
                     Some((unit, value)) => (unit, Vec::new(), value),
-                    None => (own, self.locals(&value.locals), self.expr(&value.value)),
+                    None => {
+                        let (locals, value) = self.locals_and_value(value, fault);
+                        (own, locals, value)
+                    }
                 };
                 code.globals.push(Global {
                     name: self.numbers.globals[number].clone(),
@@ -333,8 +341,7 @@ impl<'a> Lowering<'a> {
                 });
             }
             Number::Function(_) => {
-                let locals = self.locals(&value.locals);
-                let expr = self.expr(&value.value);
+                let (locals, expr) = self.locals_and_value(value, fault);
                 code.functions.push(UserFunction {
                     name: self.shared(value.name),
                     unit: own,
@@ -343,6 +350,18 @@ impl<'a> Lowering<'a> {
                     value: expr,
                 });
             }
+        }
+    }
+
+    /// One that stops the derivation where it has a fault after all.
+    fn locals_and_value(
+        &mut self,
+        value: &ast::Value,
+        fault: Option<&Diagnostic>,
+    ) -> (Vec<super::code::Expr>, super::code::Expr) {
+        match fault {
+            Some(fault) => (Vec::new(), super::code::Expr::broken(fault)),
+            None => (self.locals(&value.locals), self.expr(&value.value)),
         }
     }
 

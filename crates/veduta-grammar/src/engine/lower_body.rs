@@ -79,7 +79,14 @@ impl Lowering<'_> {
                     Step::Push(Body::Steps(Vec::new()))
                 }
             },
-            _ => Step::Leaf {
+            None => {
+                let name = self.text(call.name);
+                Step::Broken {
+                    message: format!("there is no operation or rule `{name}`").into(),
+                    span: call.name.span,
+                }
+            }
+            Some(_) => Step::Leaf {
                 symbol: call.name.symbol,
             },
         }
