@@ -39,6 +39,7 @@ mod packing;
 mod perimeter;
 mod pivots;
 mod random_programs;
+mod reaching;
 mod rederivation;
 mod reference;
 mod reshaping;
