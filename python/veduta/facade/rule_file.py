@@ -208,11 +208,13 @@ class _Writer:
         self.known[f"reveal of {name}"] = Known((deep_m, place.height))
 
     def _balustrade(self, name: str, balustrade: Opening) -> str:
-        """The call of a stone rail on the edge of the roof, of the wall's colour."""
+        """The call of a rail on the edge of the roof."""
         self.parts |= {"library_balustrade"}
-        place, stone = balustrade.rectangle, hex_colour(self.textures.colours.wall)
+        place = balustrade.rectangle
+        stuff, colour = self.textures.colours.balustrade(balustrade.number)
         x, w, h = map(metres, (place.x0, place.width, place.height))
-        kind = f'"{name}", "{balustrade.element.provenance}", "{stone}"'
+        said = balustrade.element.provenance
+        kind = f'"{name}", "{said}", "{stuff}", "{hex_colour(colour)}"'
         # Below the eaves there is wall behind it: it stands before that.
         out = "0" if place.z0 + 0.5 * place.height > self.plan.eaves_m else "0.25"
         return f"[ Balustrade({kind}, {x}, {self._height(place.z0)}, {w}, {h}, {out}) ]"

@@ -40,6 +40,8 @@ class TextureParameters:
     the photo shows none of. stone_share: railings with this share of the wall's lightness are of
     stone, if their tint is no further from the wall's than stone_tint (OpenCV's a and b): half of
     62 light railings of Paris are further, which is of iron, of ten light ones of CMP none.
+    sky_tint: between the bars of a balustrade is sky where its tint is further than this from the
+    wall's: nine of stone lie within 12, three of iron beyond 20 (CMP; these were held out).
     sky_below: how far below the eaves sky shows at most, as a share of the front: between gables,
     and over a lower house beside it.
     """
@@ -52,6 +54,7 @@ class TextureParameters:
     brick: Colour = (0.55, 0.36, 0.29)
     stone_share: float = 0.72
     stone_tint: float = 8.0
+    sky_tint: float = 16.0
     sky_below: float = 0.25
 
 
@@ -62,7 +65,8 @@ USUAL = TextureParameters()
 class Colours:
     """The typical (median) colour of each class in the photo, sRGB 0..1.
 
-    balconies: that of each railing, by the number of its element.
+    balconies: that of each railing, by the number of its element; balustrades: the same of those
+    that stand on the roof's edge, with what is between their bars.
     """
 
     wall: Colour
@@ -73,6 +77,7 @@ class Colours:
     mouldings: tuple[Colour, ...] = ()
     shutters: tuple[Colour, ...] = ()
     balconies: dict[int, Colour] = field(default_factory=dict)
+    balustrades: dict[int, Colour] = field(default_factory=dict)
 
     @property
     def railing_kind(self) -> RailingKind:
@@ -85,6 +90,13 @@ class Colours:
         if own is None or self._kind_of(own) == self.railing_kind:
             return None
         return self._kind_of(own), own
+
+    def balustrade(self, number: int) -> tuple[RailingKind, Colour]:
+        """Kind and colour of the rail of an element on the roof's edge: of stone as the wall is."""
+        seen = self.balustrades.get(number, self.wall)
+        if _apart(seen, self.wall) <= USUAL.sky_tint:
+            return "stone", self.wall
+        return "iron", self.balconies.get(number, USUAL.iron)
 
     def _kind_of(self, balcony: Colour) -> RailingKind:
         """Railings about as light as the wall and of its tint are of stone."""
@@ -184,6 +196,11 @@ def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) 
             number: _darker(crop[own], seen[own], USUAL.iron)
             for number, element in enumerate(document.elements)
             if element.class_ == "balcony" and seen[own := pixels_of(element, box)].any()
+        },
+        balustrades={
+            number: _typical(crop[own], seen[own], USUAL.stone)
+            for number, element in enumerate(document.elements)
+            if element.balustrade and seen[own := pixels_of(element, box)].any()
         },
         chimney=_typical(crop, element_mask(document, box, "chimney") & seen, USUAL.brick),
     )
