@@ -25,7 +25,7 @@ from veduta.formats.building_faces import (
     SurfaceTold,
 )
 from veduta.formats.cityjson_looks import Appearance
-from veduta.place.semantics import SemanticClass
+from veduta.place.semantics import CLASS_NAMED, SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -43,7 +43,6 @@ SURFACES = {
     "OuterCeilingSurface": SemanticClass.OTHER,
     "ClosureSurface": SemanticClass.OTHER,
 }
-_CLASSES = {one.value: one for one in SemanticClass}
 _SAVE = "Save it anew as CityJSON 2.0."
 _DEPTH = {"MultiSurface": 1, "CompositeSurface": 1, "Solid": 2, "MultiSolid": 3}
 _DEPTH["CompositeSolid"] = 3
@@ -260,7 +259,7 @@ def _told(said: Any, kind: SemanticClass | None) -> SurfaceTold:
     have a class of their own, the rule and the colour.
     """
     told = said if isinstance(said, dict) else {}
-    own = _CLASSES.get(str(told.get("class")))
+    own = CLASS_NAMED.get(str(told.get("class")))
     colour = re.fullmatch(r"#([0-9a-f]{6})", str(told.get("colour")))
     shares = None
     if colour is not None:

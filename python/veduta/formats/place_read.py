@@ -26,15 +26,13 @@ from veduta.place.material import Colour, Material, Texture
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
 from veduta.place.place import Cloud, Place
-from veduta.place.semantics import DRAWN_ONLY, Provenance, SemanticClass
+from veduta.place.semantics import CLASS_NAMED, Provenance, SemanticClass
 from veduta.run.errors import InputError
 from veduta.run.limits import limited
 
 _FARTHEST_M = 1e12
 _MOST_PIXELS = 2**28
 """Of all pictures of a model together."""
-_CLASSES = {one.value: one for one in SemanticClass if one not in DRAWN_ONLY}
-"""By names of materials: what others call a shadow is a surface to us."""
 
 
 def read_glb_place(path: Path) -> Place:
@@ -86,7 +84,7 @@ def _is_model(path: Path) -> bool:
 
 
 def _class_of(name: str) -> SemanticClass:
-    return _CLASSES.get(name.split(".")[0].lower(), SemanticClass.OTHER)
+    return CLASS_NAMED.get(name.split(".")[0].lower(), SemanticClass.OTHER)
 
 
 def _part(read: ReadMesh, path: Path) -> Part:

@@ -24,7 +24,7 @@ from veduta.grammar.instancing import instances_of
 from veduta.grammar.left_out import LeftOut, left_out_by_rule
 from veduta.place.material import Material, Texture
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
-from veduta.place.semantics import DRAWN_ONLY, Provenance, SemanticClass
+from veduta.place.semantics import CLASS_NAMED, Provenance, SemanticClass
 
 _ROUGHNESS = {
     SemanticClass.WINDOW: 0.25,
@@ -33,7 +33,6 @@ _ROUGHNESS = {
     SemanticClass.BALCONY: 0.6,
 }
 _SAID = {said.value: said for said in Provenance}
-_KNOWN = {one.value: one for one in SemanticClass if one not in DRAWN_ONLY}
 Look = tuple[float, float, float, float, str | None, str]
 
 
@@ -176,7 +175,7 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
             counts[rule] += 1
             name = f"{rule} {counts[rule]}"
         names.append(name)
-        codes.append(_KNOWN.get(derived.feature_class[row], SemanticClass.OTHER).code)
+        codes.append(CLASS_NAMED.get(derived.feature_class[row], SemanticClass.OTHER).code)
     total = len(names)
     row_of = {name: row for row, name in enumerate(names)}
     said = [_SAID.get(derived.feature_provenance[row], Provenance.INVENTED) for row in used]
@@ -205,7 +204,7 @@ def _materials(
     number_of: dict[Material, int] = {}
     rows = []
     for red, green, blue, seen, image, name in looks:
-        semantic = _KNOWN.get(name, SemanticClass.OTHER)
+        semantic = CLASS_NAMED.get(name, SemanticClass.OTHER)
         colour = (round(red, 4), round(green, 4), round(blue, 4))
         texture = None if image is None else textures.get(image)
         opacity = round(seen, 4)
@@ -225,7 +224,7 @@ def _materials(
 def _said(derived: _core.DerivedLot, textures: Mapping[str, Texture]) -> tuple[str, ...]:
     """What the rules said, and what of it is shown otherwise."""
     notes = list(dict.fromkeys(derived.messages))[:20]
-    unknown = sorted({name for name in derived.feature_class if name and name not in _KNOWN})
+    unknown = sorted({name for name in derived.feature_class if name and name not in CLASS_NAMED})
     if unknown:
         notes.append(f"material.name is no class that is known, so `other`: {', '.join(unknown)}")
     missing = sorted({look[4] for look in derived.looks if look[4] and look[4] not in textures})

@@ -34,6 +34,7 @@ CALLED = "CalledFirst"
 """The rule that a start rule with arguments is called by."""
 _CALL = re.compile(r"([A-Za-z_][\w.]*)\s*\([^\n]*\)")
 _HEAD = re.compile(r"^\s*([A-Za-z_]\w*)\s*\([^\n()]*\)\s*-->", re.MULTILINE)
+_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|#[^\n]*", re.DOTALL)
 _PLAIN_HEAD = re.compile(r"^\s*([A-Za-z_]\w*)\s*-->", re.MULTILINE)
 
 
@@ -201,11 +202,14 @@ def compile_rules(
 
 
 def begins_nothing(rules: RuleFiles, compiled: _core.GrammarRules) -> bool:
-    """Whether all rules of the main file take arguments, as those of libraries do.
+    """Whether all rules of the main file take arguments, as those of libraries do, or it has none.
 
-    The first of them stands for its start rule then, and cannot be derived as it is.
+    The first of them stands for its start rule then, and cannot be derived as it is. A file with
+    nothing in it is no library.
     """
-    main = rules.files[0][1]
+    main = _COMMENT.sub("", rules.files[0][1])
+    if not main.strip():
+        return False
     taking, plain = set(_HEAD.findall(main)), set(_PLAIN_HEAD.findall(main))
     return all(name in taking and name not in plain for name in compiled.starts)
 

@@ -91,6 +91,10 @@ OPENINGS: frozenset[SemanticClass] = frozenset(
 # What is there to be looked at alone: it has no body and no area, and nobody points at it. Formats
 # that measure or classify leave it out, and those that know no transparency.
 DRAWN_ONLY: frozenset[SemanticClass] = frozenset({SemanticClass.SHADOW})
+CLASS_NAMED: dict[str, SemanticClass] = {
+    one.value: one for one in SemanticClass if one not in DRAWN_ONLY
+}
+"""Classes by what others may call a surface: a shadow of theirs is one, and has an area."""
 
 
 def is_drawn_only(codes: NDArray[np.uint8]) -> NDArray[np.bool_]:

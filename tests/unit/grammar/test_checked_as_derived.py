@@ -66,6 +66,8 @@ def test_a_library_is_checked_and_begins_nothing(
     assert "nothing was derived: its rules are checked alone" in said.out
     assert 'write --start "Wall(' in said.err
     assert both("Wall(h) --> boxx(h)", tmp_path)[0] == 2
+    assert both("/* older:\nWall --> old */\nWall(h) --> extrude(h)", tmp_path)[0] == 0
+    assert both("// to be written", tmp_path) == (2, 2)
 
 
 def test_a_start_rule_with_arguments_is_tried_with_them(tmp_path: Path) -> None:
