@@ -94,6 +94,26 @@ def test_tiles_tell_class_and_provenance_of_each_surface(house: House, folder: P
     assert features.provenance(row) is Provenance.INVENTED
 
 
+def test_shadows_come_and_go_with_what_they_lie_under(house: House, folder: Path) -> None:
+    """From afar there is no furniture, and no dark spot where it stands."""
+    rows = set(np.flatnonzero(house.part.features.class_code == SemanticClass.SHADOW.code))
+    assert rows
+    assert rows & _surfaces(folder, "house") == set()
+    assert rows <= _surfaces(folder, "storey-1")
+
+
+def _surfaces(folder: Path, name: str) -> set[float]:
+    """The features whose surfaces a tile has, instances apart."""
+    root, content = opened(folder / "tiles" / f"{name}.glb")
+    found: set[float] = set()
+    for primitive in (one for mesh in root["meshes"] for one in mesh["primitives"]):
+        if (number := primitive["attributes"].get("_FEATURE_ID_0")) is not None:
+            accessor = root["accessors"][number]
+            start = root["bufferViews"][accessor["bufferView"]]["byteOffset"]
+            found |= set(np.frombuffer(content, "<f4", accessor["count"], start).tolist())
+    return found
+
+
 def _instanced(root: dict[str, Any], content: bytes, extensions: dict[str, Any]) -> list[float]:
     if "EXT_mesh_gpu_instancing" not in extensions:
         return []

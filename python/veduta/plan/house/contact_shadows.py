@@ -22,7 +22,7 @@ from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 
 from veduta.place.semantics import Provenance, SemanticClass
-from veduta.plan.document import Furniture
+from veduta.plan.document import Furniture, Room
 from veduta.plan.furnish.catalogue.read import Catalogue
 from veduta.plan.furnish.shapes import asset_of
 from veduta.plan.house.floors import FINISH_M
@@ -65,7 +65,7 @@ def add_contact_shadows(space: Space, catalogue: Catalogue, sculptor: Sculptor) 
         if all(layer.is_empty for layer in layers):
             continue
         feature = sculptor.builder.feature(
-            SemanticClass.SHADOW, Provenance.INVENTED, f"{space.name_of(room)} contact shadows",
+            SemanticClass.SHADOW, Provenance.INVENTED, shadows_of(space, room),
             shell=sculptor.builder.new_shell(),
         )  # fmt: skip
         rugs = [one for one in own if one.above_m < FLAT_M >= one.size_m[2]]
@@ -73,6 +73,11 @@ def add_contact_shadows(space: Space, catalogue: Catalogue, sculptor: Sculptor) 
             rise = FINISH_M + _RISE_M + number * _STEP_M
             for piece, height in _laid(layer, rugs):
                 _lay(piece, rise + height, space, sculptor, Surface(feature, LOOK))
+
+
+def shadows_of(space: Space, room: Room) -> str:
+    """What the feature of a room's shadows is called."""
+    return f"{space.name_of(room)} contact shadows"
 
 
 def _shades(one: Furniture) -> bool:

@@ -13,6 +13,7 @@ from veduta.formats.tiles import Tile, write_tileset
 from veduta.place.part import Part
 from veduta.place.subset import with_instances, with_polygons
 from veduta.plan.house.build import House
+from veduta.plan.house.contact_shadows import shadows_of
 from veduta.plan.house.space import Space
 from veduta.run.atomic import write_bytes
 
@@ -51,8 +52,9 @@ def write_tiles(house: House, world_from_part: NDArray[np.float64], folder: Path
 
 
 def _things(part: Part, space: Space) -> NDArray[np.bool_]:
-    """(f,) the features of a storey's furniture and lamps."""
+    """(f,) the features of a storey's furniture and lamps, and of the shadows under them."""
     storey = space.storey
     names = {f"{storey.name} {thing.object} {thing.id}" for thing in storey.furniture or ()}
     names |= {f"{storey.name} light {light.id}" for light in storey.lights or ()}
+    names |= {shadows_of(space, room) for room, _ in space.rooms}
     return np.array([name in names for name in part.features.name], dtype=np.bool_)
