@@ -126,7 +126,7 @@ def _from_sides(part: Mask, p: ShutterParameters) -> list[Rows]:
     """The columns from both sides on that are covered, as shares of the window."""
     covered = part.mean(axis=0) >= p.filled
     left, right = _first_run(covered), _first_run(covered[::-1])
-    if left == len(covered):
+    if len(covered) in (left, right):
         return [(0.0, 0.0, 1.0, 1.0)]
     wide = len(covered)
     return [(0.0, 0.0, left / wide, 1.0), (1.0 - right / wide, 0.0, 1.0, 1.0)]

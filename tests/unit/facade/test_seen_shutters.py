@@ -76,6 +76,15 @@ def test_a_closed_window_is_covered_whole() -> None:
     assert (kind, shares) == ("closed", pytest.approx([0.0, 0.0, 1.0, 1.0], abs=0.06))
 
 
+@pytest.mark.parametrize("columns", [(0.04, 1.0), (0.0, 0.96)])
+def test_a_frame_on_either_side_of_closed_leaves_makes_no_second_leaf(
+    columns: tuple[float, float],
+) -> None:
+    """Some of the pane is seen above them, and a strip of the frame on one side."""
+    ((kind, shares),) = _found((columns[0], 0.22, columns[1], 1.0))
+    assert (kind, shares) == ("closed", pytest.approx([0.0, 0.0, 1.0, 1.0], abs=0.06))
+
+
 def test_little_of_it_is_none() -> None:
     assert _found() == []
     assert _found((0.0, 0.0, 1.0, 0.05)) == []
