@@ -34,7 +34,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "10"
+VERSION = "11"
 MODEL = "animal.glb"
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from veduta.fauna.read.between_marks import CarriedMarks, CarryLooks, carried_marks
+from veduta.fauna.read.joints import read_joints, written_joints
 from veduta.synthetic.animals import Filmed, film_quadruped
 
 EVERY = 8
@@ -61,6 +63,20 @@ def test_marks_stay_as_they_are_and_are_trusted_most() -> None:
         trust = carried().trust[name]
         np.testing.assert_array_equal(trust[marked], 1.0)
         assert (trust[~marked] < 1.0).all()
+
+
+def test_what_is_carried_over_equal_frames_is_not_read_back_as_marked(tmp_path: Path) -> None:
+    film = filmed()
+    pictures, masks = (np.repeat(one[:1], 7, axis=0) for one in (film.frames, film.masks))
+    pins = {"nose": np.full((7, 2), np.nan)}
+    pins["nose"][[0, 6]] = film.joints["nose"][0]
+    found = carried_marks(pictures, masks, pins, CarryLooks())
+    assert np.isfinite(found.px["nose"]).all()
+    path = tmp_path / "joints.csv"
+    path.write_text(written_joints(found.px, found.trust, np.arange(7)))
+    again = read_joints(path, 7, ("nose",), [])
+    there = np.isfinite(again.px["nose"][:, 0])
+    np.testing.assert_array_equal(np.flatnonzero(there), [0, 6])
 
 
 def test_a_place_that_looks_otherwise_than_both_marks_is_trusted_little() -> None:

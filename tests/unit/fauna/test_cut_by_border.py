@@ -10,7 +10,12 @@ from veduta.fauna.document.plan import load_plan
 from veduta.fauna.motion.figure import figure_of
 from veduta.fauna.read.basis import FitLooks, spline_basis
 from veduta.fauna.read.fit import Fit
-from veduta.fauna.read.silhouettes import SilhouetteLooks, Silhouettes, silhouettes_of
+from veduta.fauna.read.silhouettes import (
+    SilhouetteLooks,
+    Silhouettes,
+    _about,
+    silhouettes_of,
+)
 from veduta.fauna.read.windows import middles_of, windows_of
 from veduta.synthetic.animals import Filmed, film_quadruped
 
@@ -74,6 +79,19 @@ def test_what_lies_beyond_the_border_is_neither_animal_nor_ground() -> None:
     costs = held.loss(numbers, 150.0, 0.03)[2]
     assert (costs[found.cut] >= each[found.cut] - 1e-9).all()
     assert costs[found.cut][-1] > 1.2 * each[found.cut][-1]
+
+
+def test_of_frames_that_are_as_far_the_earlier_ones_tell_the_usual_area() -> None:
+    """Silhouettes that come and go, each of an area of its own: ties stand at the ends."""
+    rng = np.random.default_rng(25)
+    for _ in range(40):
+        good, areas = rng.random(80) < 0.6, rng.random(80)
+        rows = np.flatnonzero(good)
+        usual = [
+            np.median(areas[sorted(rows, key=lambda other: abs(other - row))[:8]])
+            for row in range(80)
+        ]
+        np.testing.assert_array_equal(_about(areas, good, 8), usual)
 
 
 def test_an_animal_that_comes_nearer_is_kept_and_a_frame_that_flickers_is_not() -> None:

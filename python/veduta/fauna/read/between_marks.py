@@ -54,6 +54,8 @@ class CarryLooks:
     """What a place costs that is beside the silhouette."""
     trusted: float = 1.0
     """A way whose dearest place costs so much is trusted by a half."""
+    surest: float = 0.99
+    """What is carried is trusted by no more, also over equal frames: 1 is for what was marked."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,7 +215,8 @@ def _between(
     doubt = np.cumsum(moved)[: len(rows)]
     if len(marks) == 2:
         doubt = np.minimum(doubt, np.cumsum(moved[::-1])[::-1][1:])
-    return found / seen.shrink, 1.0 / (1.0 + ((doubt + paid) / looks.trusted) ** 2)
+    sure = 1.0 / (1.0 + ((doubt + paid) / looks.trusted) ** 2)
+    return found / seen.shrink, np.minimum(sure, looks.surest)
 
 
 def _steps(seen: _Seen, row: int, way: int, here: Floats, there: Floats) -> Floats:

@@ -158,7 +158,9 @@ def silhouettes_of(
 def _about(areas: NDArray[np.float64], good: NDArray[np.bool_], frames: int) -> NDArray[np.float64]:
     """(t,) the median area of the good frames that are nearest to each one."""
     rows = np.flatnonzero(good)
-    near = np.argsort(np.abs(np.arange(len(areas))[:, None] - rows), axis=1)[:, :frames]
+    away = np.abs(np.arange(len(areas))[:, None] - rows)
+    # Of two that are as far the earlier one, on all processors.
+    near = np.argsort(away, axis=1, kind="stable")[:, :frames]
     return np.asarray(np.median(areas[rows][near], axis=1))
 
 
