@@ -20,7 +20,7 @@ from veduta.plan.pages import Drawing
 from veduta.plan.photos.finish import Finished, load_pictures, with_photos
 from veduta.plan.photos.given import RoomPhoto
 from veduta.plan.sheets import Pixels, load_sheets
-from veduta.plan.tour.find import Tour, find_tour
+from veduta.plan.tour.find import Tour, find_tour, outdoor_notes
 from veduta.plan.tour.leaves import with_shut
 from veduta.plan.upper_floor import upper_floor
 from veduta.run.progress import StepProgress
@@ -162,7 +162,7 @@ def tour_step(
             "metres": round(tour.length_m),
             "seconds": round(float(tour.path.times_s[-1])),
         }
-        step.rejected.extend(tour.notes)
+        step.rejected.extend([*tour.notes, *outdoor_notes(tour.stretches)])
     if tour.shut:
         house = replace(house, part=with_shut(house.part, tour.shut))
     return tour, house

@@ -18,6 +18,7 @@ from veduta.plan.house.build import House, build_house
 from veduta.plan.house.entrance import entrances
 from veduta.plan.house.placing import place_of
 from veduta.plan.options import HouseOptions
+from veduta.plan.steps import tour_step
 from veduta.plan.tour import find
 from veduta.plan.tour.clear_view import before_eyes
 from veduta.plan.tour.find import EYE_M, INDOORS, Tour, find_tour
@@ -27,6 +28,8 @@ from veduta.plan.tour.outside import outside_of
 from veduta.plan.tour.pace import TURN_RAD_S, travelled
 from veduta.plan.tour.placing import placed_tour
 from veduta.plan.tour.planned import plan_for
+from veduta.plan.tour.stretches import Stretch, outdoor_share
+from veduta.run.report import StepRecord
 from veduta.synthetic.plans.layout import make_house
 
 SPEED_M_S = 1.2
@@ -104,15 +107,39 @@ def test_what_slow_turns_add_outdoors_is_taken_off_the_way(monkeypatch: pytest.M
     assert much is not None
     assert less is not None
     assert shares(much) > find.OUTDOORS >= shares(less) > 0.5 * find.OUTDOORS
+    assert find.outdoor_notes(less.stretches) == []
 
 
-def test_cupboards_are_not_visited() -> None:
+def test_a_tour_that_is_longer_outdoors_than_aimed_at_says_so_in_its_step() -> None:
+    """Of a house this small: one begins and ends a metre before its door."""
+    steps: list[StepRecord] = []
+    tour, _ = tour_step(build_house(with_wardrobe(), HouseOptions()), HouseOptions(), steps, silent)
+    assert tour is not None
+    assert shares(tour) > find.OUTDOORS
+    assert "outdoors, where 20% are the most" in steps[0].rejected[0]
+
+
+def silent(step: str, share: float) -> None:
+    """A progress that nobody sees."""
+
+
+def test_a_room_whose_name_is_outside_is_none_of_the_outdoors() -> None:
+    walked = (Stretch("den", "Outside", 0, 0.0, 9.0), Stretch(None, "Outside", None, 9.0, 10.0))
+    assert outdoor_share(walked) == pytest.approx(0.1)
+
+
+def with_wardrobe() -> PlanDocument:
+    """The sample with a wardrobe for its bath: one room is left to visit."""
     storey = sample_storey()
     rooms = [
         one.model_copy(update={"use": "wardrobe", "area_m2": 2.0}) if one.id == "bath" else one
         for one in storey.rooms
     ]
-    _, tour = toured(sample_plan(storey.model_copy(update={"rooms": rooms})))
+    return sample_plan(storey.model_copy(update={"rooms": rooms}))
+
+
+def test_cupboards_are_not_visited() -> None:
+    _, tour = toured(with_wardrobe())
     assert "bath" not in {stretch.room for stretch in tour.stretches}
     assert tour.notes == ()
 

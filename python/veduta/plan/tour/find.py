@@ -46,6 +46,7 @@ COMING = 0.7
 LEAST_M = 1.0
 """But at least so far before the door one begins and ends."""
 INDOORS = "the tour is indoors only: no way in from outside that is wide enough leads to most rooms"
+LONG_OUTDOORS = "{:.0%} of the tour is outdoors, where {:.0%} are the most that is aimed at"
 
 
 @dataclass(frozen=True)
@@ -112,6 +113,12 @@ def _timed(
             break
         planned_share *= LESS * OUTDOORS / share
     return timed
+
+
+def outdoor_notes(stretches: Sequence[Stretch]) -> list[str]:
+    """Where more of a tour is outdoors than is aimed at, even after all tries: small houses."""
+    share = outdoor_share(stretches)
+    return [LONG_OUTDOORS.format(share, OUTDOORS)] if share > OUTDOORS else []
 
 
 def coarse_notes(grounds: Sequence[Ground], squares: Sequence[Cells]) -> list[str]:

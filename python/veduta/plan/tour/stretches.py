@@ -44,7 +44,7 @@ def stretches_of(timed: Timed, grounds: Sequence[Ground]) -> tuple[Stretch, ...]
 
 def outdoor_share(stretches: Sequence[Stretch]) -> float:
     """How much of a tour is outside."""
-    outside = sum(one.end_s - one.start_s for one in stretches if one.title == OUTSIDE)
+    outside = sum(one.end_s - one.start_s for one in stretches if one.room is None)
     return outside / stretches[-1].end_s if stretches and stretches[-1].end_s > 0.0 else 0.0
 
 
