@@ -8,9 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely import STRtree
 from shapely.geometry import LineString, Point, Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.ops import unary_union
 
 from veduta.plan.document import Junction, JunctionType, PlanDocument, Storey, Text, Wall
+from veduta.plan.flats import with_flat
 from veduta.plan.names.vocabulary import meanings
+from veduta.plan.options import HouseOptions
 
 BESIDE_M = 0.15
 """A room that a wall borders begins so near behind its face."""
@@ -21,23 +25,34 @@ ALONG = (0.1, 0.3, 0.5, 0.7, 0.9)
 NAMED_M = 3.0
 """Walls so near a name that lies in no room may be those of a room that was not closed."""
 
+BROKEN_M = 1.0
+"""What walls enclose but for gaps so wide may be a room of the flat that was not closed."""
+
+ON_LINE_M = 0.05
+BOUNDS_M = 0.3
+"""A wall bounds it that lies along it for so far, or for half its own length."""
+
 STRAIGHT = 0.996
 """Two walls are straight on from this cosine of their bend on (5 degrees)."""
 
 
-def left_alone(document: PlanDocument, before: PlanDocument) -> PlanDocument:
-    """A document that has become a flat without walls of neighbours; others as they are."""
-    if before.flat or not document.flat:
-        return document
-    storeys = [without_neighbours(one) for one in document.storeys]
-    return document.model_copy(update={"storeys": storeys})
+def as_flat(document: PlanDocument, options: HouseOptions, *, drawn: bool) -> PlanDocument:
+    """The document as one of a flat, where it is one, without walls of neighbours.
+
+    drawn: it was read from a drawing. Of one that somebody wrote all walls stay.
+    """
+    flat = with_flat(document, options, by_text=drawn)
+    if document.flat or not flat.flat or not drawn:
+        return flat
+    return flat.model_copy(update={"storeys": [without_neighbours(one) for one in flat.storeys]})
 
 
 def without_neighbours(storey: Storey) -> Storey:
     """A storey of a flat without the walls that border none of its rooms, which is said.
 
-    Walls inside a room, as piers and screens, border it. Curved ones, and those near the name of a
-    room that was not found, stay. What bears nothing else goes with them: openings and junctions.
+    Walls inside a room, as piers and screens, border it. Curved ones, those near the name of a room
+    that was not found, and those around a space that is no room stay. What bears nothing
+    else goes with them: openings and junctions.
     """
     at = {one.id: np.array(one.at_m) for one in storey.junctions}
     gone = _neighbours(storey, at)
@@ -49,7 +64,8 @@ def without_neighbours(storey: Storey) -> Storey:
     ends = {name for one in walls for name in (one.start, one.end)}
     length = sum(float(np.hypot(*(at[one.end] - at[one.start]))) for one in lost)
     doubt = (
-        f"{length:.1f} m of wall that border no room of the flat are left out, as neighbours' walls"
+        f"{length:.1f} m of wall that border no room that was found are left out,"
+        " as neighbours' walls"
     )
     return storey.model_copy(
         update={
@@ -73,16 +89,31 @@ def _neighbours(storey: Storey, at: Mapping[str, NDArray[np.float64]]) -> set[st
     named = {name for room in storey.rooms for name in room.walls}
     tree = STRtree(rooms)
     homeless = _homeless(storey, rooms)
+    lines = {one.id: LineString([at[one.start], at[one.end]]) for one in storey.walls}
+    spaces = _spaces(list(lines.values()), rooms)
     return {
         wall.id
         for wall in storey.walls
         if wall.id not in named
         and not wall.bulge
         and not _borders(at[wall.start], at[wall.end], wall.thickness_m, tree)
-        and not any(
-            LineString([at[wall.start], at[wall.end]]).distance(one) <= NAMED_M for one in homeless
-        )
+        and not any(lines[wall.id].distance(one) <= NAMED_M for one in homeless)
+        and not _bounds(lines[wall.id], spaces)
     }
+
+
+def _spaces(lines: Sequence[LineString], rooms: Sequence[Polygon]) -> BaseGeometry:
+    """What walls enclose, with gaps, and is no room; up to the walls' centre lines."""
+    around = unary_union([one.buffer(0.5 * BROKEN_M) for one in lines])
+    holes = [
+        Polygon(ring) for part in getattr(around, "geoms", [around]) for ring in part.interiors
+    ]
+    free = [hole for hole in holes if not any(room.intersects(hole) for room in rooms)]
+    return unary_union([hole.buffer(0.5 * BROKEN_M + ON_LINE_M) for hole in free])
+
+
+def _bounds(line: LineString, spaces: BaseGeometry) -> bool:
+    return bool(line.intersection(spaces).length >= min(BOUNDS_M, 0.5 * line.length))
 
 
 def _borders(

@@ -16,8 +16,8 @@ from veduta.plan.building import FILES_OF, Building, BuildingFiles, Visit
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.doubts import doubts
-from veduta.plan.flat_alone import left_alone
-from veduta.plan.flats import flat_options, with_flat
+from veduta.plan.flat_alone import as_flat
+from veduta.plan.flats import flat_options
 from veduta.plan.follow_walls import with_rooms_on_walls
 from veduta.plan.furnish.catalogue.digest import catalogue_digests
 from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
@@ -261,9 +261,7 @@ def _make(
         finished = finish_step(call, read, given.photos, steps, progress, stays=stays)
         notes = [*given.notes, *notes, *finished.notes]
         document = sited(finished.document, options.site, given.panorama)
-        document = left_alone(
-            with_flat(document, options.house, by_text=call.kind == "drawings"), document
-        )
+        document = as_flat(document, options.house, drawn=call.kind == "drawings")
         document = with_terrace(document, options.house, by_text=call.kind == "drawings")
         built = terrace_options(document, flat_options(document, options.house))
         built = upper_floor_options(document, built)

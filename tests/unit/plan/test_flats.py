@@ -6,7 +6,7 @@ import pytest
 from sample_plan import sample_plan, sample_storey, wall, window
 
 from veduta.plan.document import Junction, PlanDocument, Text
-from veduta.plan.flat_alone import left_alone
+from veduta.plan.flat_alone import as_flat
 from veduta.plan.flats import flat_named, flat_options, with_flat
 from veduta.plan.house.build import build_house
 from veduta.plan.options import HouseOptions
@@ -79,7 +79,7 @@ def with_next_door(*texts: Text) -> PlanDocument:
 
 def alone(document: PlanDocument) -> PlanDocument:
     """The document as one of a flat."""
-    return left_alone(with_flat(document, HouseOptions(flat=True), by_text=True), document)
+    return as_flat(document, HouseOptions(flat=True), drawn=True)
 
 
 def test_walls_of_neighbours_are_left_out_of_a_flat() -> None:
@@ -96,9 +96,24 @@ def test_walls_of_neighbours_are_left_out_of_a_flat() -> None:
 
 def test_walls_of_a_house_and_near_the_name_of_a_lost_room_stay() -> None:
     house = with_next_door()
-    assert left_alone(with_flat(house, HouseOptions(), by_text=True), house) is house
+    assert as_flat(house, HouseOptions(), drawn=True) is house
     lost = Text(text="Bedroom", box_px=[(980, 700), (1060, 700), (1060, 720), (980, 720)],
                 score=0.9)  # fmt: skip
     (storey,) = alone(with_next_door(lost)).storeys
     assert len(storey.walls) == 10
     assert storey.doubts == []
+
+
+def test_walls_of_an_own_room_that_was_not_found_stay_and_so_do_those_that_somebody_drew() -> None:
+    document = with_next_door()
+    (full,) = document.storeys
+    found = [one for one in full.rooms if one.id != "bath"]
+    openings = [one for one in full.openings if one.wall != "north-2"]
+    lost = full.model_copy(update={"rooms": found, "openings": openings})
+    (storey,) = alone(sample_plan(lost)).storeys
+    gone = {one.id for one in full.walls} - {one.id for one in storey.walls}
+    assert gone == {"next-1", "next-2"}
+    assert "border no room that was found" in storey.doubts[0]
+    rebuilt = as_flat(document, HouseOptions(flat=True), drawn=False)
+    assert rebuilt.flat
+    assert rebuilt.storeys == document.storeys
