@@ -94,9 +94,15 @@ def lay_out(document: FacadeDocument) -> Layout:
     numbered = list(enumerate(document.elements))
     front = _Front(wall)
     balconies = _balconies(numbered, document, front.notes)
-    shops = _shops(numbered, front)
-    doors = _doors(numbered, front, shops)
-    windows = _windows(numbered, front, shops, [balcony.rectangle for balcony in balconies])
+    # A way through the house is no door of a shop: it comes first, and cuts a shop around it.
+    through = [(n, e) for n, e in numbered if e.class_ == "door" and e.passage]
+    cut_first = {n for n, _ in through}
+    others = [(n, e) for n, e in numbered if n not in cut_first]
+    passages = _doors(through, front, ())
+    shops = _shops(others, front)
+    doors = [*passages, *_doors(others, front, shops)]
+    doors.sort(key=lambda door: door.number)
+    windows = _windows(numbered, front, (shops, doors), [each.rectangle for each in balconies])
     front.notes += [left_out(e, n, _PAINTED_ONLY) for n, e in numbered if e.class_ in _SURROUNDINGS]
     roof = [(n, e) for n, e in numbered if _is_above(e, wall)]
     dormers = [Opening(rectangle_of(e), e, n) for n, e in roof if e.class_ == "window"]
@@ -166,11 +172,14 @@ def _doors(numbered: Numbered, front: _Front, shops: Sequence[Opening]) -> list[
 def _windows(
     numbered: Numbered,
     front: _Front,
-    shops: Sequence[Opening],
+    below: tuple[Sequence[Opening], Sequence[Opening]],
     balconies: Sequence[Rectangle],
 ) -> list[Opening]:
-    """Windows from the ground up; one that opens onto a balcony reaches down to its floor."""
-    doors = list(front.placed)[len(shops) :]
+    """Windows from the ground up; one that opens onto a balcony reaches down to its floor.
+
+    below: shops, and doors.
+    """
+    shops, doors = below
     found = []
     for number, element in sorted(numbered, key=lambda pair: (pair[1].y_m, pair[0])):
         wanted = rectangle_of(element)
@@ -178,7 +187,7 @@ def _windows(
             continue
         if any(_share_inside(wanted, shop.rectangle) >= INSIDE_SHARE for shop in shops):
             continue
-        if any(_share_inside(wanted, door) >= INSIDE_SHARE for door in doors):
+        if any(_share_inside(wanted, door.rectangle) >= INSIDE_SHARE for door in doors):
             front.notes.append(left_out(element, number, "it lies in a door"))
             continue
         place = front.place(element, number, _down_to_balcony(wanted, balconies))

@@ -106,7 +106,7 @@ def _is_in(box: Box, passages: Sequence[Box], p: PassageParameters) -> bool:
         across = min(box.x + box.width, one.x + one.width) - max(box.x, one.x)
         down = min(box.y + box.height, one.y + one.height) - max(box.y, one.y)
         shared = max(0, across) * max(0, down)
-        # A wide shop front may have a passage beside its panes: it is cut, not left out.
+        # A wide shop front may have a passage beside its panes: it is cut around it, not left out.
         if shared > p.inside * min(box.width * box.height, 2.0 * one.width * one.height):
             return True
     return False
