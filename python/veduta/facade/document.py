@@ -167,7 +167,7 @@ class Element(_Record):
     balustrade: bool = Field(
         default=False,
         exclude_if=lambda balustrade: not balustrade,
-        description="of a balcony: a rail on the edge of the roof, which nobody stands behind",
+        description="of a balcony: a rail along the edge of the roof, which nobody stands behind",
     )
 
     @property
