@@ -27,6 +27,8 @@ DOCUMENT = "facade.json"
 PHOTO = "rectified.jpg"
 MAX_BYTES = 20_000_000
 MAX_ELEMENTS = 20_000
+MAX_STRIPS = 4_000
+"""Shutters, and mouldings: each costs a look at the whole picture."""
 MAX_EXTENTS = 64
 MAX_POINTS = 20_000
 """Of the polygons of all extents together, and of the outlines of all elements."""
@@ -85,6 +87,9 @@ def _faults(document: FacadeDocument) -> list[str]:
         found.append(f"classes: must be {', '.join(CLASSES)}, in this order")
     if len(document.elements) > MAX_ELEMENTS:
         found.append(f"elements: more than {MAX_ELEMENTS}")
+    for name, strips in (("mouldings", document.mouldings), ("shutters", document.shutters)):
+        if len(strips) > MAX_STRIPS:
+            found.append(f"{name}: {len(strips)}, more than {MAX_STRIPS}")
     if document.storeys < 1:
         found.append(f"storeys: {document.storeys}, must be 1 or more")
     if document.scale.metres_per_px <= 0:

@@ -64,7 +64,8 @@ def build_model(
     _check(document, rectified)
     _check_sizes(document)
     plan = plan_building(document)
-    textures = make_textures(document, rectified, plan.top_m, before)
+    shutters = [shutter.number for shutter in plan.shutters]
+    textures = make_textures(document, rectified, plan.top_m, before, shutters)
     rules = write_rules(plan, textures, _roof_provenance(document), document.source.image)
     repeating, left_out = repeating_rules(plan, textures.colours, document.source.image) or (
         rules.text,

@@ -65,12 +65,14 @@ def pixels_of(element: Element, box: PixelBox, spread_px: float = 0.0) -> tuple[
     return slice(y0, y1), slice(x0, x1)
 
 
-def strip_mask(strip: Moulding | Shutter, box: PixelBox) -> Mask:
-    """Where a moulding or a shutter lies in the crop."""
+def strip_mask(strip: Moulding | Shutter, box: PixelBox, spread_px: int = 0) -> Mask:
+    """Where a moulding or a shutter lies in the crop, grown by `spread_px` on each side."""
     mask = np.zeros((box.size[1], box.size[0]), dtype=np.bool_)
     x, y = strip.x_px - box.x0, strip.y_px - box.y0
-    rows = slice(max(0, round(y)), max(0, round(y + strip.height_px)))
-    mask[rows, max(0, round(x)) : max(0, round(x + strip.width_px))] = True
+    x0, y0 = (max(0, round(start) - spread_px) for start in (x, y))
+    x1 = max(0, round(x + strip.width_px) + spread_px)
+    y1 = max(0, round(y + strip.height_px) + spread_px)
+    mask[y0:y1, x0:x1] = True
     return mask
 
 

@@ -91,6 +91,9 @@ def plan_building(document: FacadeDocument) -> Plan:
     chimneys = plan_chimneys(layout.chimneys, (width, depth, eaves), mansard, notes)
     balconies = _snapped(layout.balconies)
     ledges = plan_ledges(document, [opening.rectangle for opening in openings], eaves, notes)
+    library = document.model.detail == "library"
+    # Without the library no shutter is built: then none of them is worth a note.
+    shutters = plan_shutters(document, wall, openings, notes if library else [])
     return Plan(
         width_m=width,
         depth_m=depth,
@@ -104,8 +107,8 @@ def plan_building(document: FacadeDocument) -> Plan:
         dormers=dormers,
         chimneys=chimneys,
         mouldings=plan_mouldings(document, width, ledges),
-        shutters=plan_shutters(document, wall, openings),
-        library=document.model.detail == "library",
+        shutters=shutters,
+        library=library,
         notes=tuple(notes),
         depths=document.depths,
         ledges=ledges,

@@ -41,25 +41,44 @@ def plan_shutters(
     document: FacadeDocument,
     wall: Rectangle,
     openings: Sequence[Opening],
+    notes: list[str],
     limits: ShutterLimits | None = None,
 ) -> tuple[PlannedShutter, ...]:
-    """The shutters of a document: open ones clear of all openings, closed ones within theirs."""
+    """The shutters of a document: open ones clear of all openings, closed ones within theirs.
+
+    notes: gets what is not built, and why.
+    """
     own = limits or ShutterLimits()
     found: list[PlannedShutter] = []
     open_leaves: list[Rectangle] = []
     holes = [opening.rectangle for opening in openings]
     for number, each in enumerate(document.shutters):
         seen = _down_with(_metres(each, document), openings, own)
+        if not _is_at_one(seen, openings, own):
+            notes.append(_not_built(number, each, "no window that is built is beside it"))
+            continue
         if each.kind == "open":
             place = carve(seen.common(wall), [*holes, *open_leaves], 0.0)
         else:
             place = _before(seen, holes, own)
         if place.width < own.wide_m or place.height < own.high_m:
+            notes.append(_not_built(number, each, "it is too small, or has no room"))
             continue
         if each.kind == "open":
             open_leaves.append(place)
         found.append(PlannedShutter(number, snapped(place), each))
     return tuple(found)
+
+
+def _not_built(number: int, shutter: Shutter, reason: str) -> str:
+    return f"{shutter.kind} shutter (shutters[{number}]): not built, {reason}"
+
+
+def _is_at_one(seen: Rectangle, openings: Sequence[Opening], own: ShutterLimits) -> bool:
+    """Whether one of the openings is under it or beside it, as it was seen or as it is built."""
+    near = seen.grown(own.beside_m)
+    places = [p for o in openings for p in (o.rectangle, rectangle_of(o.element))]
+    return any(near.common(place).area > 0.0 for place in places)
 
 
 def _metres(shutter: Shutter, document: FacadeDocument) -> Rectangle:

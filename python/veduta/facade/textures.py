@@ -7,6 +7,7 @@ invented: a railing is shown once, on the railing, and not again on the wall beh
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from math import ceil, floor
 from typing import Literal
@@ -136,11 +137,13 @@ def make_textures(
     photo: Pixels,
     top_m: float,
     before: NDArray[np.uint8] | None = None,
+    shutters: Collection[int] | None = None,
 ) -> FacadeTextures:
     """Cut the facade up to `top_m` above the ground out of the photo, and make both textures.
 
     photo: (h, w, 3) uint8 sRGB, the rectified photo of the document. before: (h, w) what
     stands before the front, places in `cleared.KINDS`; nothing but balconies where it is not given.
+    shutters: numbers of those that are built, where not all are; others stay as in the photo.
     """
     facade, scale = document.facade, document.scale.metres_per_px
     bottom = facade.y_px + facade.height_px
@@ -158,7 +161,11 @@ def make_textures(
         hidden = before[box.y0 : box.y1, box.x0 : box.x1]
     colours = _colours(document, crop, box, ~unseen & (hidden == 0))
     _fill_unseen(document, crop, box, unseen, colours)
-    cleared, invented = _surface_layer(document, crop, box, colours, hidden, unseen)
+    built = document
+    if shutters is not None:
+        kept = [each for number, each in enumerate(document.shutters) if number in shutters]
+        built = document.model_copy(update={"shutters": kept})
+    cleared, invented = _surface_layer(built, crop, box, colours, hidden, unseen)
     return FacadeTextures(
         front=_fitted(crop, unseen, box, whole),
         wall=_fitted(cleared.pixels, invented | unseen, box, whole),

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from veduta.facade.document import FacadeDocument, Split
-from veduta.facade.load import MAX_EXTENTS, MAX_PAINTED, MAX_POINTS, load_document
+from veduta.facade.document import FacadeDocument, Shutter, Split
+from veduta.facade.load import MAX_EXTENTS, MAX_PAINTED, MAX_POINTS, MAX_STRIPS, load_document
 from veduta.run.errors import InputError
 
 Make = Callable[..., FacadeDocument]
@@ -45,6 +45,14 @@ def test_points_are_counted_over_all_extents(make_document: Make, tmp_path: Path
     assert len(load_document(written(most, tmp_path)).extents) == 2
     more = make_document(extents=[("sky", TRIANGLE), ("wall", [*many, *TRIANGLE])])
     assert fault_of(more, tmp_path).startswith(f"extents[1].polygon_px: {len(many) + 3} points")
+
+
+def test_shutters_are_counted(make_document: Make, tmp_path: Path) -> None:
+    leaf = Shutter(kind="open", x_px=12.0, y_px=60.0, width_px=4.0, height_px=9.0, score=0.9)
+    most = make_document().model_copy(update={"shutters": [leaf] * MAX_STRIPS})
+    assert len(load_document(written(most, tmp_path)).shutters) == MAX_STRIPS
+    more = most.model_copy(update={"shutters": [leaf] * (MAX_STRIPS + 1)})
+    assert fault_of(more, tmp_path) == f"shutters: {MAX_STRIPS + 1}, more than {MAX_STRIPS}"
 
 
 def test_how_often_elements_cover_the_picture(make_document: Make, tmp_path: Path) -> None:

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from closed_shells import assert_closed
 from numpy.typing import NDArray
-from sample_document import EAVES_PX, METRES_PER_PX, sample_document, sample_photo
+from sample_document import EAVES_PX, METRES_PER_PX, element, sample_document, sample_photo
 
+from veduta.facade.depth_words import depth_of_opening
 from veduta.facade.document import Element, FacadeDocument, Moulding, Shutter, ShutterKind
 from veduta.facade.model import build_model
 from veduta.facade.options import ModelSizes
+from veduta.facade.plan import plan_building
 from veduta.facade.side_wall import side_of
 from veduta.place.instances import placed
 from veduta.place.part import Part
@@ -86,7 +88,8 @@ def _box_of(part: Part, name: str) -> tuple[NDArray[np.float64], NDArray[np.floa
 
 def test_the_body_is_closed_and_all_is_there(part: Part) -> None:
     assert_closed(part)
-    assert part.notes == ()
+    told = "closed shutter (shutters[2]): not built, no window that is built is beside it"
+    assert part.notes == (told,)
     found = _instances(part)
     assert found["balcony 1"] > found["balcony 2"] > 2
     assert found["leaf of door 2"] == 1
@@ -157,6 +160,50 @@ def test_a_balustrade_stands_on_the_wall_or_before_its_end(
     low, high = _box_of(made.part, "balcony 1")
     assert low == pytest.approx([0.4, -out_m, foot_m], abs=0.05)
     assert high == pytest.approx([11.6, deep_m - out_m, foot_m + 1.0], abs=0.05)
+    assert ("ledge under balcony 1" in made.part.features.name) == (out_m > 0.0)
+
+
+def test_leaves_without_a_window_stay_as_they_are_in_the_photo() -> None:
+    """None is built in bare wall, nor one of 7 cm; the photo is filled where one is built."""
+    document = _document()
+    window, (leaf, *_) = _shuttered(document), document.shutters
+    narrow = leaf.model_copy(update={"x_px": window.x_px + window.width_px, "width_px": 3.0})
+    changed = document.model_copy(update={"shutters": [leaf, narrow]})
+    made = build_model(changed, sample_photo(document), "house")
+    assert {n for n in _instances(made.part) if n.startswith("shutter")} == {"shutter 1"}
+    reason = "it is too small, or has no room"
+    assert f"open shutter (shutters[1]): not built, {reason}" in made.part.notes
+    assert made.cleared.shares["shutter"] > 0.0
+    elements = [e for e in document.elements if e is not window and e.class_ != "balcony"]
+    bare = build_model(
+        changed.model_copy(update={"elements": elements}), sample_photo(document), "house"
+    )
+    assert not any(name.startswith("shutter") for name in _instances(bare.part))
+    told = "open shutter (shutters[0]): not built, no window that is built is beside it"
+    assert told in bare.part.notes
+    assert "shutter" not in bare.cleared.shares
+
+
+def test_a_leaf_as_wide_as_numbers_go_fills_no_more_than_the_picture() -> None:
+    document = _document()
+    leaf = document.shutters[0].model_copy(update={"width_px": 1e6, "height_px": 1e6})
+    wide = document.model_copy(update={"shutters": [leaf]})
+    made = build_model(wide, sample_photo(document), "house")
+    assert "shutter 1" in _instances(made.part)
+    assert made.cleared.shares.get("shutter", 0.0) <= 1.0
+
+
+def test_a_passage_through_a_shop_cuts_it_and_is_deep() -> None:
+    """It is no door of the shop: as wide as it was seen, three metres deep, down to the ground."""
+    through = element("door", 3.0, 0.0, 2.4, 2.6).model_copy(update={"passage": True})
+    across = element("door", 7.0, 0.0, 2.4, 2.6).model_copy(update={"passage": True})
+    for passage, shop in ((through, (0.5, 8.0)), (across, (0.5, 7.5))):
+        document = sample_document([element("shop", shop[0], 0.0, shop[1], 3.0), passage])
+        plan = plan_building(document)
+        found = {o.element.class_: o for band in plan.bands for o in band.openings}
+        assert found["door"].rectangle.width == pytest.approx(2.4)
+        assert found["shop"].children == ()
+        assert depth_of_opening(found["door"], plan, "setback", 1.0).m == 3.0
 
 
 def test_the_photo_on_plain_boxes_has_none_of_it() -> None:

@@ -150,9 +150,7 @@ def _open_leaves(document: FacadeDocument, box: PixelBox) -> Mask:
         return mask
     for each in document.shutters:
         if each.kind == "open":
-            reach = 2 * max(1, round(0.1 * each.width_px)) + 1
-            own = strip_mask(each, box).astype(np.uint8)
-            mask |= cv2.dilate(own, np.ones((reach, reach), np.uint8)) > 0
+            mask |= strip_mask(each, box, max(1, round(0.1 * each.width_px)))
     for class_ in ("window", "door", "shop"):
         mask &= ~element_mask(document, box, class_)
     return mask
