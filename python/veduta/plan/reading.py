@@ -146,19 +146,30 @@ class Sheeted:
 def _likeliest_way(sheet: Sheeted) -> Drawn:
     """The reading in the way of drawing walls in which most names have a room of their own."""
     labels = room_labels(sheet.texts, indoors=True)
-    tried: list[Way] = []
+    tried: list[Way | None] = []
 
     def readings() -> Iterator[Callable[[float], Drawn]]:
+        # Hatched walls of a house within a ring look scribbled, too: that is asked last of all.
+        by_hand: list[Way] = []
         for way in ways_drawn(sheet.cleaned, sheet.texts, sheet.flights):
+            if way.told == "by hand":
+                by_hand.append(way)
+                continue
             tried.append(way)
             yield partial(_read, sheet, way)
-        if not sheet.fenced and tried:
-            yield partial(_within_ring, sheet, tried[0])
+        first = next((way for way in (*tried, *by_hand) if way is not None), None)
+        if not sheet.fenced and first is not None:
+            tried.append(None)
+            yield partial(_within_ring, sheet, first)
+        for way in by_hand:
+            tried.append(way)
+            yield partial(_read, sheet, way)
 
     likely, drawn = likeliest(readings(), labels)
-    if sheet.known is None and likely < len(tried) and _with_own_rooms(drawn, labels) < 1.0:
+    way = tried[likely]
+    if sheet.known is None and way is not None and _with_own_rooms(drawn, labels) < 1.0:
         # The least invention: what thin lines close counts once it is known how walls are drawn.
-        closed = _read(sheet, tried[likely], thin=True)
+        closed = _read(sheet, way, thin=True)
         # Within a fence the walls may have been read in another way than that.
         drawn = _better(drawn, closed, labels) if PLOT_NOTE in drawn.notes else closed
     return without_apart(drawn, labels)

@@ -8,9 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from veduta.plan import reading
 from veduta.plan.document import Text
 from veduta.plan.drawn import Cleaned, Drawn, DrawnRoom
 from veduta.plan.reading import MOST_WALLS, likeliest, read_storey
+from veduta.plan.walls.solid import Thickness
+from veduta.plan.walls.ways import Way
 from veduta.run.errors import NotFoundError
 from veduta.synthetic.plans.degrade import DEGRADATIONS
 from veduta.synthetic.plans.sets import sheets_of
@@ -99,3 +102,29 @@ def test_few_names_say_nothing() -> None:
         likeliest([none, *says(one)], LABELS[:3])
     with pytest.raises(NotFoundError, match="there are none"):
         likeliest([none, none], LABELS)
+
+
+def test_walls_scribbled_by_hand_are_asked_for_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Hatched ones look like it: a house within a ring of walls is looked for before."""
+    blank = np.zeros((4, 4), np.bool_)
+    ways = [
+        Way(blank, blank, Thickness(2.0, 4.0), "hatched", told) for told in ("by hand", "by ink")
+    ]
+    asked: list[str] = []
+
+    def refused(sheet: object, way: Way, *_: object, **__: object) -> Drawn:
+        asked.append(way.told)
+        return none()
+
+    def ring(sheet: object, way: Way, *_: object) -> Drawn:
+        asked.append(f"within a ring, {way.told}")
+        return none()
+
+    monkeypatch.setattr(reading, "ways_drawn", lambda *_: iter(ways))
+    monkeypatch.setattr(reading, "room_labels", lambda *_, **__: LABELS)
+    monkeypatch.setattr(reading, "_read", refused)
+    monkeypatch.setattr(reading, "_within_ring", ring)
+    sheet = reading.Sheeted(drawn(40).cleaned, (), (), None)
+    with pytest.raises(NotFoundError):
+        reading._likeliest_way(sheet)
+    assert asked == ["by ink", "within a ring, by ink", "by hand"]

@@ -68,14 +68,14 @@ class Way:
 
     `mask` (h, w): where walls are solid, with other strokes; `ink` (h, w): what is drawn, without
     texts and flights. `told`: whether walls are looked for in the ink, are all that has their
-    colour or that their pen drew, or are known.
+    colour or that their pen drew, were scribbled full by a hand, or are known.
     """
 
     ink: NDArray[np.bool_]
     mask: NDArray[np.bool_]
     thickness: Thickness
     drawing: WallDrawing
-    told: Literal["by ink", "by colour", "by pen", "known"] = "by ink"
+    told: Literal["by ink", "by colour", "by pen", "by hand", "known"] = "by ink"
 
 
 def known_way(solid: NDArray[np.bool_]) -> Way:
@@ -141,7 +141,7 @@ def ways_of_ink(
         yield layered
     scribbled = scribbled_walls(ink, line_px)
     if scribbled is not None:
-        yield Way(ink, scribbled[0], scribbled[1], "hatched")
+        yield Way(ink, scribbled[0], scribbled[1], "hatched", "by hand")
 
 
 def _layered(ink: NDArray[np.bool_], lines: NDArray[np.bool_], line_px: float) -> Way | None:
