@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from shapely.geometry import Point
 
 from veduta.plan.clean import ink as inks
+from veduta.plan.clean.letterhead import within_letterhead
 from veduta.plan.clean.sheet import clean_sheet
 from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
@@ -45,7 +46,7 @@ from veduta.plan.openings.strip import Sheet
 from veduta.plan.openings.ticks import panels_beyond, tick_pieces
 from veduta.plan.remarks import PLOT_NOTE
 from veduta.plan.rooms.apart import without_apart
-from veduta.plan.rooms.labels import room_labels
+from veduta.plan.rooms.labels import room_labels, without_printed
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
@@ -87,9 +88,13 @@ class KnownWalls:
 def cleaned_sheet(
     pixels: NDArray[np.uint8], texts: Sequence[Text], subject: str = "the drawing"
 ) -> tuple[Cleaned, list[Text]]:
-    """A sheet (h, w, 3) laid straight, its ink, and its texts in pixels of that."""
+    """A sheet (h, w, 3) laid straight, its ink, and its texts in pixels of that.
+
+    What names or measures rooms in a letterhead is left out with it; a scale or a title is not.
+    """
     cleaned = clean_sheet(pixels, subject)
-    return cleaned, moved_texts(texts, cleaned.clean_from_scan)
+    own = without_printed(texts, within_letterhead(pixels))
+    return cleaned, moved_texts(own, cleaned.clean_from_scan)
 
 
 def read_storey(

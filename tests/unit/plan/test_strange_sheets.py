@@ -9,6 +9,7 @@ import pytest
 from veduta.plan.clean.letterhead import without_letterhead
 from veduta.plan.document import Text
 from veduta.plan.drawn import Cleaned, Drawn, DrawnJunction, DrawnRoom, DrawnWall
+from veduta.plan.reading import cleaned_sheet
 from veduta.plan.rooms.apart import NOTE, without_apart
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.scale.bars import bar_voters
@@ -47,14 +48,14 @@ FOUR = [np.array([x, 250.0]) for x in (80.0, 150.0, 220.0, 290.0)]
 
 
 @pytest.mark.parametrize("turn", range(4))
-def test_a_band_along_an_edge_is_painted_white_with_all_that_is_in_it(turn: int) -> None:
+def test_a_band_along_an_edge_is_painted_as_paper_with_all_that_is_in_it(turn: int) -> None:
     sheet = np.full((400, 600, 3), 250, np.uint8)
     sheet[:70] = (196, 30, 58)
     sheet[20:50, 480:560] = (90, 120, 160)  # a picture in it
     sheet[150:300, 100:104] = 20  # a wall
     turned = np.rot90(sheet, turn)
     bare = np.rot90(without_letterhead(turned), -turn)
-    assert (bare[:70] == 255).all()
+    assert (bare[:70] == 250).all()
     assert np.array_equal(bare[75:], sheet[75:])
 
 
@@ -65,6 +66,36 @@ def test_coloured_paper_and_walls_at_an_edge_are_no_letterhead() -> None:
     blueprint = np.full((400, 600, 3), (28, 66, 128), np.uint8)
     blueprint[100:300, 100:500] = 250
     assert without_letterhead(blueprint) is blueprint
+
+
+def test_outer_walls_at_which_a_picture_ends_are_no_letterhead() -> None:
+    sheet = np.full((1000, 1000, 3), 250, np.uint8)
+    sheet[:32] = sheet[:, :32] = 20
+    sheet[400:432, 200:800] = 20
+    assert without_letterhead(sheet) is sheet
+    sheet[:, :32] = 250
+    sheet[:432, 600:616] = 20  # a thinner wall meets the one that is left
+    assert without_letterhead(sheet) is sheet
+    sheet[:60, 600:616] = sheet[500:, 600:616] = 250
+    sheet[:32] = 20  # met by nothing, it is the scanner's or a letterhead
+    assert (without_letterhead(sheet)[:32] == 250).all()
+
+
+def test_a_band_on_a_blueprint_becomes_its_paper() -> None:
+    blueprint = np.full((400, 600, 3), (28, 66, 128), np.uint8)
+    blueprint[200:206, 100:500] = 250
+    paper = blueprint.copy()
+    blueprint[:70] = (196, 30, 58)
+    assert np.array_equal(without_letterhead(blueprint), paper)
+
+
+def test_names_in_a_letterhead_are_no_rooms_but_its_scale_counts() -> None:
+    sheet = np.full((400, 600, 3), 250, np.uint8)
+    sheet[:70] = (196, 30, 58)
+    sheet[150:300, 100:104] = 20
+    words = [("Kitchen & Bath Ltd", 30.0), ("120 m2", 30.0), ("1:100", 30.0), ("Bath", 200.0)]
+    _, texts = cleaned_sheet(sheet, [text(said, 300.0, level) for said, level in words])
+    assert [one.text for one in texts] == ["1:100", "Bath"]
 
 
 def test_a_frame_above_the_house_without_a_name_is_left_out() -> None:

@@ -1,7 +1,8 @@
 """Bands of one colour along a whole edge of the sheet: letterheads and side bars, with all in them.
 
 They may be as dark as walls, and a picture in them as thick; nothing of the plan is there. A sheet
-that has one colour around it on all sides is drawn on coloured paper, and has none.
+that has one colour around it on all sides is drawn on coloured paper, and has none. Where the plan
+is cut off at its outer walls, these are no band.
 """
 
 from __future__ import annotations
@@ -25,28 +26,65 @@ STILL = 0.4
 """Where less of a row has the band's colour, the band has ended."""
 
 
-def without_letterhead(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """sRGB pixels (h, w, 3) with bands along one or two edges painted white; as given without."""
+WALL = 0.08
+"""No wall is deeper than this part of the sheet's side. What is not is wall, not band, ..."""
+
+DRAWN_WITH = 0.002
+"""... where so much of the rest of the sheet has its colour, ..."""
+
+MET = 0.25
+"""... and strokes of that colour meet it, together as broad as this part of its depth."""
+
+SOFT_PX = 2
+"""The edge of the band is soft."""
+
+
+def letterhead(pixels: NDArray[np.uint8]) -> dict[int, int]:
+    """How many pixels deep the bands of sRGB pixels (h, w, 3) are, by quarter turns.
+
+    After so many of numpy's quarter turns (`rot90`) a band lies along the first rows.
+    """
     paper = _paper(pixels)
     coloured = [turn for turn in range(4) if _colour(np.rot90(pixels, turn), paper) is not None]
     if not coloured or len(coloured) > 2:
-        return pixels
+        return {}
     depths = {turn: _depth(np.rot90(pixels, turn), paper) for turn in coloured}
-    deep = [turn for turn in coloured if depths[turn]]
-    if not deep:
+    return {
+        turn: depth
+        for turn, depth in depths.items()
+        if depth and not _is_wall(np.rot90(pixels, turn), depth, paper)
+    }
+
+
+def without_letterhead(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """sRGB pixels (h, w, 3) with bands painted in the paper's colour; as given without bands."""
+    bands = letterhead(pixels)
+    if not bands:
         return pixels
     cleared = pixels.copy()
-    for turn in deep:
-        np.rot90(cleared, turn)[: depths[turn]] = 255
+    for turn, depth in bands.items():
+        np.rot90(cleared, turn)[:depth] = np.round(_paper(pixels))
     return cleared
 
 
+def within_letterhead(pixels: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
+    """(h, w) where bands are; None without any."""
+    bands = letterhead(pixels)
+    if not bands:
+        return None
+    within = np.zeros(pixels.shape[:2], np.bool_)
+    for turn, depth in bands.items():
+        np.rot90(within, turn)[:depth] = True
+    return within
+
+
 def _paper(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
-    """The commonest colour (3,), in steps of 16, of the middle of the sheet."""
+    """The commonest colour (3,) of the middle of the sheet: the mean of a step of 16."""
     height, width = pixels.shape[:2]
     middle = pixels[height // 4 : -(height // 4), width // 8 : -(width // 8)][::3, ::3]
-    steps, counts = np.unique(middle.reshape(-1, 3) // 16, axis=0, return_counts=True)
-    return np.asarray(16.0 * steps[int(counts.argmax())] + 8.0)
+    colours = middle.reshape(-1, 3)
+    _, of, counts = np.unique(colours // 16, axis=0, return_inverse=True, return_counts=True)
+    return np.asarray(colours[of.reshape(-1) == int(counts.argmax())].mean(axis=0))
 
 
 def _colour(pixels: NDArray[np.uint8], paper: NDArray[np.float64]) -> NDArray[np.float64] | None:
@@ -75,5 +113,14 @@ def _depth(pixels: NDArray[np.uint8], paper: NDArray[np.float64]) -> int:
     share = alike.mean(axis=1)
     ended = np.flatnonzero(share[inset:] < STILL)
     depth = inset + int(ended[0]) if len(ended) else height
-    # The edge of the band is soft.
-    return depth + 2 if LEAST * height <= depth <= most else 0
+    return depth + SOFT_PX if LEAST * height <= depth <= most else 0
+
+
+def _is_wall(pixels: NDArray[np.uint8], depth: int, paper: NDArray[np.float64]) -> bool:
+    """Whether the band along the first rows is an outer wall, at which the picture ends."""
+    colour = _colour(pixels, paper)
+    if colour is None or depth > WALL * len(pixels):
+        return False
+    alike = np.abs(pixels[depth:].astype(np.int16) - colour).max(axis=2) <= ALIKE
+    met = int(alike[SOFT_PX : 2 * SOFT_PX].all(axis=0).sum())
+    return bool(met >= MET * depth and alike.mean() >= DRAWN_WITH)

@@ -41,6 +41,22 @@ def room_labels(texts: Sequence[Text], *, indoors: bool = False) -> list[NDArray
     return [np.asarray(np.concatenate([box for box, _ in group]).mean(axis=0)) for group in kept]
 
 
+def without_printed(texts: Sequence[Text], within: NDArray[np.bool_] | None) -> list[Text]:
+    """Texts without those that say a room in a letterhead: `Kitchen & Bath Ltd` is none.
+
+    within: (h, w) in the pixels of the texts, where the letterhead is; None without one.
+    """
+    if within is None:
+        return list(texts)
+    return [one for one in texts if not (_says_room(one) and _lies_in(one, within))]
+
+
+def _lies_in(text: Text, within: NDArray[np.bool_]) -> bool:
+    column, row = np.mean(text.box_px, axis=0).astype(int)
+    height, width = within.shape
+    return bool(within[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)])
+
+
 def _without_windows(
     groups: list[list[tuple[NDArray[np.float64], Text]]],
 ) -> list[list[tuple[NDArray[np.float64], Text]]]:
