@@ -31,6 +31,7 @@ from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import cleaned_sheet, read_cleaned
 from veduta.plan.registering import registered
 from veduta.plan.remarks import false_flights, remarks
+from veduta.plan.rooms.labels import window_notes
 from veduta.plan.scale.estimate import (
     DrawnSizes,
     estimate_scale,
@@ -190,6 +191,7 @@ def _storey(
             *false_flights(read.drawn.stairs, drawn.stairs),
             *said,
             *_strays(drawn),
+            *window_notes(drawn.texts),
         ],
     )
     walls_alone = check_house(storey, drawing.label)

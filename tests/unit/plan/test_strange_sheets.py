@@ -11,7 +11,7 @@ from veduta.plan.document import Text
 from veduta.plan.drawn import Cleaned, Drawn, DrawnJunction, DrawnRoom, DrawnWall
 from veduta.plan.reading import cleaned_sheet
 from veduta.plan.rooms.apart import NOTE, without_apart
-from veduta.plan.rooms.labels import room_labels
+from veduta.plan.rooms.labels import WINDOWS_NOTE, room_labels, window_notes
 from veduta.plan.scale.bars import bar_voters
 from veduta.plan.walls.scribbled import scribbled_walls
 
@@ -128,6 +128,11 @@ def test_sizes_of_windows_that_are_all_as_high_are_no_rooms() -> None:
     # Three may be rooms as deep as each other, and without names all sizes are those of rooms.
     assert len(room_labels([*rooms, *windows[:3]])) == 7
     assert len(room_labels(windows)) == 4
+    assert window_notes([*rooms, *windows]) == [WINDOWS_NOTE.format(4)]
+    # Bedrooms of a hostel are as deep as each other, too.
+    bedrooms = [text("3.20 x 4.50", 100.0 * place, 20.0) for place in range(1, 6)]
+    assert len(room_labels([*rooms, *bedrooms])) == 9
+    assert window_notes([*rooms, *bedrooms]) == []
 
 
 def test_a_bar_whose_zero_was_not_read_says_the_scale_where_it_is_drawn() -> None:
