@@ -87,7 +87,8 @@ def measured(
 ) -> list[Row]:  # fmt: skip
     """The rows of one fit; without marks the frames in which the dog turns round are left out."""
     everything = found.masks
-    parted = stretches_of(found, footage.frames[found.rows], WayLooks(), marked=bool(marks.px))
+    own = {joint: sure[found.rows] for joint, sure in marks.trust.items()}
+    parted = stretches_of(found, footage.frames[found.rows], WayLooks(), own)
     ways = parted.right
     if ways is not None:
         found, ways = found.of(np.flatnonzero(~parted.turning)), ways[~parted.turning]

@@ -54,7 +54,7 @@ def measured(clip: int) -> list[Row]:
         film_quadruped(FIRST + clip, frames=FRAMES, cycle=18.0 + clip, odd=clip % 4 == 3), *turn
     )
     found = silhouettes_of(film.masks, SilhouetteLooks(), str(clip), with_cut=True)
-    parted = stretches_of(found, film.frames[found.rows], WayLooks(), marked=False)
+    parted = stretches_of(found, film.frames[found.rows], WayLooks(), {})
     row: Row = {"clip": clip, "told": parted.right is not None,
                 "left out": int(parted.turning.sum())}  # fmt: skip
     for name, apart in (("told", True), ("as one plane", False)):

@@ -34,7 +34,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "11"
+VERSION = "12"
 MODEL = "animal.glb"
 
 

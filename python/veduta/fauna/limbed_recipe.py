@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.fauna.document.coat import COAT
 from veduta.fauna.document.limbed import LimbedAnimal
@@ -33,6 +35,8 @@ _MOST_FRAMES = 72
 """More are not fitted: a cycle is in them many times over."""
 _FEWEST_FRAMES = 5
 _TURNS = "it turns round there, and one plane does not hold it"
+_FEW = "it is kept, as too few that show it whole are left beside the turn"
+_MORE = "more frames than are fitted, and others are in the middle or show it whole"
 _CUT = "the frame's border cuts the animal; it is fitted from what is seen of it"
 
 
@@ -69,12 +73,14 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         step.counts["good"] = len(found.rows)
         left_out = [f"frame {footage.number[row]}: {why}" for row, why in found.left_out]
         step.rejected.extend(left_out)
-        found = _fewer(found)
-        cut = [] if found.cut is None else [int(n) for n in footage.number[found.rows[found.cut]]]
-        step.rejected.extend(f"frame {number}: {_CUT}" for number in cut)
+        found, more = fewer(found)
+        told = [f"frame {footage.number[row]}: {_MORE}" for row in more]
+        step.rejected.extend(told)
+        left_out.extend(told)
     pins = pins_of(work, record, footage, found, plan, options.footage)
-    found, ways = _turned(work, footage, found, plan, left_out, marked=bool(pins.px))
+    found, ways, cut = parted(work, footage, found, plan, left_out, pins.trust)
     with work.step("figure") as step:
+        step.rejected.extend(f"frame {number}: {_CUT}" for number in cut)
         seen = fit_limbed(
             found.masks, footage.number[found.rows], plan, LimbedLooks(),
             lambda: work.progress("figure", 0.5),
@@ -99,8 +105,7 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         animal = described_limbs(seen, plan, record.path.stem, source, footage.frame_s, overlaps,
                                  options)  # fmt: skip
         step.counts["gaits"] = len(animal.gaits)
-    second = second_view(work, record)
-    if second is not None:
+    if (second := second_view(work, record)) is not None:
         animal = with_second_view(animal, second)
     with work.step("coat"):
         coat = _coat(footage, found, seen, plan, joints)
@@ -109,11 +114,13 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
     return ReadLimbed(animal.model_copy(update={"coat": COAT}), coat)
 
 
-def _fewer(found: Silhouettes) -> Silhouettes:
-    """The middle ones, if they are many, of those that show it whole if these are enough;
-    NotFoundError where they are too few.
+def fewer(found: Silhouettes) -> tuple[Silhouettes, NDArray[np.int64]]:
+    """Those that are fitted if there are many, and the rows of the others: the middle ones of those
+    that show it whole, or all these and the cut ones nearest to them; NotFoundError where too few
+    show it whole.
     """
-    whole = np.arange(len(found.rows)) if found.cut is None else np.flatnonzero(~found.cut)
+    every = np.arange(len(found.rows))
+    whole = every if found.cut is None else np.flatnonzero(~found.cut)
     if len(whole) < _FEWEST_FRAMES:
         raise NotFoundError(
             "the animal's motion",
@@ -121,30 +128,47 @@ def _fewer(found: Silhouettes) -> Silhouettes:
             f"Give footage in which at least {_FEWEST_FRAMES} frames do.",
         )
     if len(whole) >= _MOST_FRAMES:
-        found = found.of(whole)
-    if len(found.rows) <= _MOST_FRAMES:
-        return found
-    first = (len(found.rows) - _MOST_FRAMES) // 2
-    return found.of(slice(first, first + _MOST_FRAMES))
+        first = (len(whole) - _MOST_FRAMES) // 2
+        kept = whole[first : first + _MOST_FRAMES]
+    else:
+        away = np.abs(found.rows[:, None] - found.rows[whole]).min(axis=1)
+        kept = np.sort(np.argsort(away, kind="stable")[:_MOST_FRAMES])
+    return found.of(kept), found.rows[np.setdiff1d(every, kept)]
+
+
+def parted(
+    work: Work, footage: Footage, found: Silhouettes, plan: BodyPlan, left_out: list[str],
+    trust: Mapping[str, Floats],
+) -> tuple[Silhouettes, Floats | None, list[int]]:  # fmt: skip
+    """The silhouettes to fit, (t,) which way it looks in each, and the numbers of those that the
+    border cuts. What is left out joins left_out.
+    """
+    found, ways = _turned(work, footage, found, plan, left_out, trust)
+    # Of those that are left: one that is cut may turn round, too.
+    cut = [] if found.cut is None else [int(n) for n in footage.number[found.rows[found.cut]]]
+    return found, ways, cut
 
 
 def _turned(
-    work: Work, footage: Footage, found: Silhouettes, plan: BodyPlan, left_out: list[str], *,
-    marked: bool,
+    work: Work, footage: Footage, found: Silhouettes, plan: BodyPlan, left_out: list[str],
+    trust: Mapping[str, Floats],
 ) -> tuple[Silhouettes, Floats | None]:  # fmt: skip
     """The silhouettes of an animal that turns round without those in which it does, and (t,) which
-    way it looks in each; None where it does not turn, or marks alone hold it.
+    way it looks in each; None where it does not turn, marks alone hold it, or too little is left.
+    trust: (t,) by joint in all frames, of marks.
     """
     if plan.view == "top":
         return found, None
-    stretches = stretches_of(found, footage.frames[found.rows], WayLooks(), marked=marked)
+    own = {name: sure[found.rows] for name, sure in trust.items()}
+    stretches = stretches_of(found, footage.frames[found.rows], WayLooks(), own)
     if not stretches.turning.any():
         return found, None
     with work.step("turns round") as step:
         numbers = footage.number[found.rows[stretches.turning]]
         step.counts["frames"] = len(numbers)
         if stretches.right is None:
-            step.rejected.extend(f"frame {number}: {_TURNS}: the marks do" for number in numbers)
+            why = ": the marks do" if not stretches.few else f"; {_FEW}"
+            step.rejected.extend(f"frame {number}: {_TURNS}{why}" for number in numbers)
             return found, None
         told = [f"frame {number}: {_TURNS}; it is left out" for number in numbers]
         step.rejected.extend(told)

@@ -5,8 +5,10 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+import pytest
 
 from veduta.fauna.document.plan import load_plan
+from veduta.fauna.limbed_recipe import fewer
 from veduta.fauna.motion.figure import figure_of
 from veduta.fauna.read.basis import FitLooks, spline_basis
 from veduta.fauna.read.fit import Fit
@@ -88,10 +90,10 @@ def test_of_frames_that_are_as_far_the_earlier_ones_tell_the_usual_area() -> Non
         good, areas = rng.random(80) < 0.6, rng.random(80)
         rows = np.flatnonzero(good)
         usual = [
-            np.median(areas[sorted(rows, key=lambda other: abs(other - row))[:8]])
+            np.median(areas[sorted(rows, key=lambda other: abs(other - row))[:9]])
             for row in range(80)
         ]
-        np.testing.assert_array_equal(_about(areas, good, 8), usual)
+        np.testing.assert_array_equal(_about(areas, good, 9), usual)
 
 
 def test_an_animal_that_comes_nearer_is_kept_and_a_frame_that_flickers_is_not() -> None:
@@ -103,3 +105,16 @@ def test_an_animal_that_comes_nearer_is_kept_and_a_frame_that_flickers_is_not() 
     found = silhouettes_of(masks, LOOKS, "nearer", with_cut=True)
     assert [row for row, _ in found.left_out] == [12]
     assert len(silhouettes_of(masks, LOOKS, "nearer").rows) < 22
+
+
+@pytest.mark.parametrize(("whole", "kept"), [(10, 10), (80, 72)])
+def test_of_many_frames_those_that_show_it_whole_come_first(whole: int, kept: int) -> None:
+    rows = np.arange(10, 110)
+    cut = np.ones(100, dtype=np.bool_)
+    cut[:whole] = False
+    found = Silhouettes(np.ones((100, 2, 2), dtype=np.bool_), rows, np.ones(100), (), cut)
+    used, more = fewer(found)
+    assert used.cut is not None
+    assert len(used.rows) == 72
+    assert int((~used.cut).sum()) == kept
+    np.testing.assert_array_equal(np.sort(np.concatenate([used.rows, more])), rows)

@@ -6,6 +6,7 @@ animal goes the way it looks, so it has turned where it goes back and was narrow
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +30,11 @@ class WayLooks:
     narrow: float = 0.75
     """Between it is narrower for its height than on both sides by this share."""
     fewest: int = 5
-    """Frames in which it does not turn; of fewer nothing is left out."""
+    """Frames that show it whole and in which it does not turn; of fewer nothing is left out."""
+    marks: float = 4.0
+    """Marks of a frame, each by how far it is trusted; fewer hold no figure."""
+    held: float = 0.8
+    """Of the frames in which it turns, so many have them."""
     cells: int = 48
     """Of the windows in which a cycle is looked for."""
     calm: int = 3
@@ -54,30 +59,37 @@ class Ways:
 @dataclass(frozen=True, eq=False)
 class Stretches:
     """turning: (t,) frames in which it turns round. right: (t,) which way it looks; None where
-    nothing is to be parted: it does not turn, or its marked joints hold it in all frames.
+    nothing is to be parted: it does not turn, its marked joints hold it in all frames, or (few) too
+    few frames are left that show it whole.
     """
 
     turning: NDArray[np.bool_]
     right: Floats | None
+    few: bool = False
 
 
 def stretches_of(
-    found: Silhouettes, pictures: Frames | None, looks: WayLooks, *, marked: bool
+    found: Silhouettes, pictures: Frames | None, looks: WayLooks, trust: Mapping[str, Floats]
 ) -> Stretches:
-    """Of silhouettes and their frames (t, h, w, 3). marked: whether joints are.
+    """Of silhouettes and their frames (t, h, w, 3). trust: (t,) in those frames, by joint that is
+    marked, how far the mark is trusted.
 
-    Without a cycle each frame has a pose of its own, which marks may turn round as they will; one
-    cycle for all frames they cannot.
+    Without a cycle each frame has a pose of its own, which marks may turn round as they will, where
+    there are some; one cycle for all frames they cannot.
     """
     shown = found.shown()
     middle = middles_of(found.masks, shown)
     ways = ways_of(found.masks, middle, pictures, looks)
-    kept = int(np.count_nonzero(~ways.turning))
-    if not ways.turns or kept < looks.fewest:
+    if not ways.turns:
         return Stretches(np.zeros_like(ways.turning), None)
-    windows = windows_of(found.masks, looks.cells, middle, shown).turned_where(ways.right)
-    if marked and repeat_of(windows) is None:
-        return Stretches(ways.turning, None)
+    whole = ~ways.turning if found.cut is None else ~ways.turning & ~found.cut
+    if np.count_nonzero(whole) < looks.fewest:
+        return Stretches(ways.turning, None, few=True)
+    marks = np.sum([np.zeros(len(ways.turning)), *trust.values()], axis=0)
+    if np.mean(marks[ways.turning] >= looks.marks) >= looks.held:
+        windows = windows_of(found.masks, looks.cells, middle, shown).turned_where(ways.right)
+        if repeat_of(windows) is None:
+            return Stretches(ways.turning, None)
     return Stretches(ways.turning, ways.right)
 
 
@@ -87,26 +99,45 @@ def ways_of(masks: Masks, middle_px: Floats, pictures: Frames | None, looks: Way
     way = gaussian_filter1d(np.concatenate([[0.0], np.cumsum(gone)]), 1.0, mode="nearest")
     narrow = uniform_filter1d(_narrowness(masks), looks.calm, mode="nearest")
     right, turning = np.ones(len(masks)), np.zeros(len(masks), dtype=np.bool_)
-    corners = [0, *_corners(way, looks.back), len(masks) - 1]
-    if len(corners) < 3:
-        return Ways(right, turning)
-    usual = [
-        float(np.percentile(narrow[a : b + 1], 80))
-        for a, b in zip(corners[:-1], corners[1:], strict=True)
-    ]
+    corners, splits = _turns([0, *_corners(way, looks.back), len(masks) - 1], way, narrow, looks)
     begin = 0
-    for number, corner in enumerate(corners[1:-1]):
-        # It is narrowest somewhere about where it begins to go back.
-        low, high = (corners[number] + corner) // 2, (corner + corners[number + 2]) // 2
-        split = low + int(narrow[low : high + 1].argmin())
-        limit = looks.narrow * min(usual[number], usual[number + 1])
-        if narrow[split] > limit:
-            return Ways(np.ones(len(masks)), np.zeros(len(masks), dtype=np.bool_))
-        right[begin:split] = np.sign(way[corner] - way[corners[number]])
-        right[split:] = np.sign(way[corners[number + 2]] - way[corner])
+    for number, (split, limit) in enumerate(splits):
+        right[begin:split] = np.sign(way[corners[number + 1]] - way[corners[number]])
+        right[split:] = np.sign(way[corners[number + 2]] - way[corners[number + 1]])
         turning |= _around(narrow < limit, split)
         begin = split
     return Ways(right, turning)
+
+
+def _turns(
+    corners: list[int], way: Floats, narrow: Floats, looks: WayLooks
+) -> tuple[list[int], list[tuple[int, float]]]:
+    """Of frames at which a way goes back, with both ends, those at which the animal turns, and the
+    frame of each in which it is narrowest, with how narrow one in the turn is.
+
+    Where it was not narrow it stepped back. That is dropped alone, and what is left has to go the
+    other way after it than before.
+    """
+    while len(corners) > 2:
+        splits, kept = [], [corners[0]]
+        for low, corner, high in zip(corners[:-2], corners[1:-1], corners[2:], strict=True):
+            # It is narrowest somewhere about where it begins to go back.
+            first, last = (low + corner) // 2, (corner + high) // 2
+            split = first + int(narrow[first : last + 1].argmin())
+            sides = narrow[low : corner + 1], narrow[corner : high + 1]
+            limit = looks.narrow * min(float(np.percentile(side, 80)) for side in sides)
+            if narrow[split] <= limit:
+                kept.append(corner)
+                splits.append((split, limit))
+        kept.append(corners[-1])
+        if len(kept) == len(corners):
+            gone = np.diff(way[kept])
+            same = np.flatnonzero((np.abs(gone) < looks.back)[1:] | (gone[1:] * gone[:-1] >= 0.0))
+            if not len(same):
+                return kept, splits
+            del kept[1 + int(same[0])]
+        corners = kept
+    return corners, []
 
 
 def _narrowness(masks: Masks) -> Floats:
