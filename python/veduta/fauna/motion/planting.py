@@ -124,7 +124,7 @@ def _wanted(
     spot = np.array([float(carried[stands].mean()), sole])
     there = np.stack([spot[0] - stride * since, np.full(len(phase), spot[1])], axis=1)
     off = there - at
-    order = np.argsort(since)
+    order = np.argsort(since, kind="stable")
     known = order[stands[order]]
     first, last = off[known[0]], off[known[-1]]
     share = np.clip((since - duty) / max(1.0 - duty, 1e-9), 0.0, 1.0)

@@ -274,7 +274,8 @@ def _alike(
     cost = (1.0 - share) * apart[0] + share * apart[-1]
     cost = np.minimum(np.minimum(cost, 1.5 * np.minimum(apart[0], apart[-1])), looks.most)
     cost = cost + looks.outside * seen.outside(row, grid)
-    kept = np.unique(np.concatenate([np.arange(len(guesses)), np.argsort(cost)[: looks.places]]))
+    likest = np.argsort(cost, kind="stable")[: looks.places]
+    kept = np.unique(np.concatenate([np.arange(len(guesses)), likest]))
     return grid[kept], cost[kept]
 
 

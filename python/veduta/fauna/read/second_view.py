@@ -85,7 +85,7 @@ def rounded(plan: BodyPlan, view: SecondView, looks: SecondLooks) -> tuple[BodyP
     body = plan.parts[0]
     forward = np.array([point[0] for point in body.points])
     deep = np.array(body.deep)
-    order = np.argsort(forward)
+    order = np.argsort(forward, kind="stable")
     low, high = _ends(plan)
     places = np.linspace(forward.min(), forward[:-1].max(), _STEPS)
     own = np.interp(places, forward[order], deep[order])

@@ -25,6 +25,8 @@ LEAST, MOST = 0.025, 0.35
 STILL = 0.4
 """Where less of a row has the band's colour, the band has ended."""
 
+EDGE = 45
+"""What lies beyond a band differs so much from it, in one channel: paper in shadow fades slowly."""
 
 WALL = 0.08
 """No wall is deeper than this part of the sheet's side. What is not is wall, not band, ..."""
@@ -113,7 +115,10 @@ def _depth(pixels: NDArray[np.uint8], paper: NDArray[np.float64]) -> int:
     share = alike.mean(axis=1)
     ended = np.flatnonzero(share[inset:] < STILL)
     depth = inset + int(ended[0]) if len(ended) else height
-    return depth + SOFT_PX if LEAST * height <= depth <= most else 0
+    if not LEAST * height <= depth <= most:
+        return 0
+    beyond = np.median(pixels[depth + SOFT_PX : depth + SOFT_PX + 3].reshape(-1, 3), axis=0)
+    return depth + SOFT_PX if np.abs(beyond - colour).max() >= EDGE else 0
 
 
 def _is_wall(pixels: NDArray[np.uint8], depth: int, paper: NDArray[np.float64]) -> bool:
