@@ -1,6 +1,7 @@
 //! Expressions.
 
 use super::lookup::Place;
+use super::reached::Named;
 use super::{Checker, Target};
 use crate::ast::{BinaryOp, Expr, ExprKind, Ident, Size};
 use crate::builtins::{attributes, functions, is_word, words, words_at, Words, ANY, NONE};
@@ -106,7 +107,7 @@ impl Checker<'_> {
                 if unit == self.unit {
                     self.calls.call(index);
                 }
-                self.reach.uses.push((self.reach.origin, (unit, index)));
+                self.reach.name(Named::Value((unit, index)));
                 return self.resolve(name, Target::Value { unit, index });
             }
         }

@@ -1,6 +1,7 @@
 //! Where a name is defined: in the file, in those that it imports, or in the language.
 
 use super::definitions::Definitions;
+use super::reached::Named;
 use super::{Checker, Target};
 use crate::ast::Ident;
 use crate::builtins::{attributes, functions, operations, words};
@@ -118,7 +119,7 @@ impl Checker<'_> {
     /// Keeps the target of a name, and that a rule is called.
     pub fn resolve_rule(&mut self, name: &Ident, unit: usize, index: usize) {
         self.used_rules.insert((unit, index));
-        self.reach.calls.push((self.reach.origin, (unit, index)));
+        self.reach.name(Named::Rule((unit, index)));
         self.resolve(name, Target::Rule { unit, index });
     }
 }

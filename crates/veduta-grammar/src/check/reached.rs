@@ -15,8 +15,8 @@ const UNUSED: &str = "nothing that is reached uses it";
 type Place = (usize, usize);
 
 /// A rule or a value that a statement names.
-#[derive(Clone, Copy)]
-enum Named {
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Named {
     Rule(Place),
     Value(Place),
 }
@@ -26,10 +26,8 @@ enum Named {
 pub(super) struct Reach {
     /// The item in hand, where it is a rule or a value that only counts where others name it.
     pub origin: Option<usize>,
-    /// Who calls which rule (file and definition).
-    pub calls: Vec<(Option<usize>, Place)>,
-    /// Who uses which constant, attribute or function (file and definition).
-    pub uses: Vec<(Option<usize>, Place)>,
+    /// Who names what (file and definition).
+    named: Vec<(Option<usize>, Named)>,
     /// What stops a derivation in a branch that is taken, and no other.
     pub stops: Vec<Diagnostic>,
     /// Which diagnostics are about an item.
@@ -39,6 +37,10 @@ pub(super) struct Reach {
 }
 
 impl Reach {
+    pub fn name(&mut self, what: Named) {
+        self.named.push((self.origin, what));
+    }
+
     pub fn miss(&mut self, unit: usize, link: usize, span: Span) {
         self.missed.push((self.origin, (unit, link), span));
     }
@@ -125,14 +127,10 @@ impl Settling<'_> {
         let mut next: HashMap<Place, Vec<Named>> = HashMap::new();
         let mut open: Vec<Named> = self.start.into_iter().map(Named::Rule).collect();
         for (unit, reach) in self.reaches.iter().enumerate() {
-            let calls = reach.calls.iter();
-            let calls = calls.map(|(origin, called)| (*origin, Named::Rule(*called)));
-            let uses = reach.uses.iter();
-            let uses = uses.map(|(origin, used)| (*origin, Named::Value(*used)));
-            for (origin, named) in calls.chain(uses) {
+            for (origin, named) in &reach.named {
                 match origin {
-                    Some(item) => next.entry((unit, item)).or_default().push(named),
-                    None => open.push(named),
+                    Some(item) => next.entry((unit, *item)).or_default().push(*named),
+                    None => open.push(*named),
                 }
             }
         }
