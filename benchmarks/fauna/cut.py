@@ -6,21 +6,16 @@
 
 from __future__ import annotations
 
-import argparse
-from functools import partial
-from pathlib import Path
-
 import numpy as np
-from kept_clips import KeptClips
+from kept_clips import Row, rows_of_clips
 from limbed import joints_near
-from record import Value, keep_or_print
+from record import keep_or_print
 
 from veduta.fauna.document.plan import load_plan
 from veduta.fauna.read.limbed import LimbedLooks, fit_limbed
 from veduta.fauna.read.silhouettes import SilhouetteLooks, silhouettes_of
 from veduta.synthetic.animals import film_quadruped
 
-Row = dict[str, Value]
 FIRST = 731
 """The seed of the first clip: none from here on was looked at."""
 FRAMES, LEFT, RIGHT = 52, 60, 330
@@ -29,21 +24,13 @@ FRAMES, LEFT, RIGHT = 52, 60, 330
 
 def main() -> None:
     """Measure all clips and keep the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--clips", type=int, default=6, help="every third is odd")
-    parser.add_argument("--kept", type=Path, help="where clips that are done are kept")
-    parser.add_argument("--no-keep", action="store_true")
-    given = parser.parse_args()
-    kept = KeptClips(given.kept)
-    rows = [
-        row for clip in range(given.clips) for row in kept.rows(str(clip), partial(measured, clip))
-    ]
+    rows, keep = rows_of_clips(__doc__, 6, "every third", measured)
     notes = [
         "Drawn quadrupeds (veduta.synthetic.animals, which shares no function with the fit) that"
         f" walk out of a frame of {RIGHT - LEFT} columns; their silhouettes are the true ones.",
         "What lies beyond the border is neither animal nor ground for the fit.",
     ]
-    keep_or_print("fauna-cut", rows, notes, not given.no_keep)
+    keep_or_print("fauna-cut", rows, notes, keep)
 
 
 def measured(clip: int) -> list[Row]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from record import Value
@@ -27,3 +29,20 @@ class KeptClips:
             if self._file is not None:
                 self._file.write_text(json.dumps(self._rows, indent=1) + "\n")
         return self._rows[name]
+
+
+def rows_of_clips(
+    description: str | None, clips: int, odd: str, measured: Callable[[int], list[Row]]
+) -> tuple[list[Row], bool]:
+    """The rows of as many clips as the command line says, and whether the table is to be kept.
+
+    clips: without a word of it. odd: which of them are.
+    """
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--clips", type=int, default=clips, help=f"{odd} is odd")
+    parser.add_argument("--kept", type=Path, help="where clips that are done are kept")
+    parser.add_argument("--no-keep", action="store_true")
+    given = parser.parse_args()
+    kept = KeptClips(given.kept)
+    each = (kept.rows(str(clip), partial(measured, clip)) for clip in range(given.clips))
+    return [row for rows in each for row in rows], not given.no_keep

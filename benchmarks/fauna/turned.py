@@ -6,14 +6,10 @@
 
 from __future__ import annotations
 
-import argparse
-from functools import partial
-from pathlib import Path
-
 import numpy as np
-from kept_clips import KeptClips
+from kept_clips import Row, rows_of_clips
 from limbed import joints_near
-from record import Value, keep_or_print
+from record import keep_or_print
 
 from veduta.fauna.document.plan import load_plan
 from veduta.fauna.read.limbed import LimbedLooks, fit_limbed
@@ -21,7 +17,6 @@ from veduta.fauna.read.silhouettes import SilhouetteLooks, silhouettes_of
 from veduta.fauna.read.ways import WayLooks, stretches_of
 from veduta.synthetic.animals import film_quadruped, turned_round
 
-Row = dict[str, Value]
 FIRST = 771
 """The seed of the first clip: none from here on was looked at."""
 FRAMES = 60
@@ -29,22 +24,14 @@ FRAMES = 60
 
 def main() -> None:
     """Measure all clips and keep the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--clips", type=int, default=4, help="every fourth is odd")
-    parser.add_argument("--kept", type=Path, help="where clips that are done are kept")
-    parser.add_argument("--no-keep", action="store_true")
-    given = parser.parse_args()
-    kept = KeptClips(given.kept)
-    rows = [
-        row for clip in range(given.clips) for row in kept.rows(str(clip), partial(measured, clip))
-    ]
+    rows, keep = rows_of_clips(__doc__, 4, "every fourth", measured)
     notes = [
         "Drawn quadrupeds, flat, that turn round in ten to sixteen frames of sixty and go back;"
         " their silhouettes are the true ones. Beside: the same frames with the turn in them, as of"
         " an animal that does not turn. Sides of legs are compared the way that fits better: what"
         " is drawn is the one side of the animal.",
     ]
-    keep_or_print("fauna-turned", rows, notes, not given.no_keep)
+    keep_or_print("fauna-turned", rows, notes, keep)
 
 
 def measured(clip: int) -> list[Row]:
