@@ -11,10 +11,11 @@ from shapely.geometry import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
-from veduta.plan.document import Junction, JunctionType, PlanDocument, Storey, Text, Wall
+from veduta.plan.document import Junction, PlanDocument, Storey, Text, Wall
 from veduta.plan.flats import with_flat
 from veduta.plan.names.vocabulary import meanings
 from veduta.plan.options import HouseOptions
+from veduta.plan.walls.graph import junction_type
 
 BESIDE_M = 0.15
 """A room that a wall borders begins so near behind its face."""
@@ -31,9 +32,6 @@ BROKEN_M = 1.0
 ON_LINE_M = 0.05
 BOUNDS_M = 0.3
 """A wall bounds it that lies along it for so far, or for half its own length."""
-
-STRAIGHT = 0.996
-"""Two walls are straight on from this cosine of their bend on (5 degrees)."""
 
 
 def as_flat(document: PlanDocument, options: HouseOptions, *, drawn: bool) -> PlanDocument:
@@ -154,10 +152,5 @@ def _as_it_is(
         for one in walls
         if junction.id in (one.start, one.end)
     ]
-    unit = [way / max(float(np.hypot(*way)), 1e-9) for way in ways]
-    kind: JunctionType = "end"
-    if len(unit) == 2:
-        kind = "straight" if float(-(unit[0] @ unit[1])) >= STRAIGHT else "L"
-    elif len(unit) > 2:
-        kind = "T" if len(unit) == 3 else "X"
+    kind = junction_type([way / max(float(np.hypot(*way)), 1e-9) for way in ways])
     return junction.model_copy(update={"type": kind})

@@ -283,6 +283,11 @@ def _type(
             line = edge_line(edge, Graph(nodes, edges, ()), axes)
             at_start = edge.first == node
             away.append(line.arc.way(0.0) if at_start else -line.arc.way(line.length_px))
+    return junction_type(away)
+
+
+def junction_type(away: Sequence[NDArray[np.float64]]) -> JunctionType:
+    """What walls make that go away from one point in these directions (2,) of length 1."""
     if len(away) <= 1:
         return "end"
     if len(away) == 2:
